@@ -1,0 +1,28 @@
+// tests/support/shared.h - where tests find the scenes and reference tables kept beside the
+// repository, and how they step aside when those are absent.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+namespace strahl::test {
+
+/// Folder of the shared data: $STRAHL_SHARED, else the default compiled in (../shared beside the
+/// repository). Need not exist.
+inline std::filesystem::path shared_dir() {
+  const char* from_environment = std::getenv("STRAHL_SHARED");
+  return from_environment != nullptr ? from_environment : STRAHL_SHARED_DEFAULT;
+}
+
+}  // namespace strahl::test
+
+/// Skips the running test, with a message, where `path` (relative to the shared data) is absent.
+#define STRAHL_REQUIRE_SHARED(path)                                                \
+  do {                                                                             \
+    const std::filesystem::path required_ = ::strahl::test::shared_dir() / (path); \
+    if (!std::filesystem::exists(required_)) {                                     \
+      GTEST_SKIP() << "shared data absent (set STRAHL_SHARED): " << required_;     \
+    }                                                                              \
+  } while (false)
