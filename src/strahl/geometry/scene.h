@@ -1,0 +1,158 @@
+// geometry/scene.h - what is to be hit: geometries, instances of them, and their numbering.
+//
+// SceneData is the plain description that readers and generators fill. Scene is its checked,
+// immutable form: refused primitives known, instances inverted, references numbered.
+// Ids: (instance_id, geometry_id, primitive_id) as DESIGN fixes them per format.
+// Thread safety: Scene is immutable; const access from any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <strahl/geometry/cone.h>
+#include <strahl/geometry/mesh.h>
+#include <strahl/geometry/sphere.h>
+#include <strahl/math/affine.h>
+
+namespace strahl {
+
+/// How a surface looks; only renderers and ray-tree workloads read it.
+struct Material {
+  Vec3d color{0.8, 0.8, 0.8};
+  double diffuse = 1.0, specular = 0.0, shine = 0.0, transmission = 0.0, refraction_index = 1.0;
+};
+
+enum class PrimitiveKind : std::uint8_t { triangle, sphere, cone };
+
+/// Primitives of one kind. primitive_id counts them from 0. Exactly the member of `kind` is used.
+struct Geometry {
+  PrimitiveKind kind = PrimitiveKind::triangle;
+  TriangleMesh mesh;
+  std::vector<Sphere> spheres;
+  std::vector<Cone> cones;
+  std::vector<std::uint32_t> face_ids;   ///< source polygon of each primitive; empty: its own id
+  std::vector<std::uint32_t> materials;  ///< index per primitive; empty: material 0 for all
+  std::uint32_t geometry_id = 0;         ///< reported in hits
+  std::string name;
+
+  std::size_t size() const {
+    return kind == PrimitiveKind::triangle ? mesh.size()
+           : kind == PrimitiveKind::sphere ? spheres.size()
+                                           : cones.size();
+  }
+};
+
+/// Geometries [first_geometry, first_geometry + geometry_count) placed in the world.
+struct Instance {
+  std::uint32_t first_geometry = 0, geometry_count = 0;
+  Affine to_world;                ///< composed by the reader, object -> world
+  std::uint32_t instance_id = 0;  ///< reported in hits
+};
+
+/// A camera as NFF and the standard scenes state it; fov is the full angle in degrees.
+struct View {
+  Vec3d from, at, up{0, 0, 1};
+  double fov_degrees = 45.0;
+  int width = 512, height = 512;
+};
+
+/// Plain description of a scene, filled by readers and generators.
+struct SceneData {
+  std::vector<Geometry> geometries;
+  std::vector<Instance> instances;  ///< empty: one identity instance of all geometries, id 0
+  std::vector<Material> materials;
+  std::optional<View> view;
+  std::vector<Vec3d> lights;
+  std::optional<Vec3d> background;
+  std::vector<std::string> warnings;  ///< what a reader skipped or repaired, with its place
+  std::string source;                 ///< file name or generator text, for messages
+};
+
+/// Names one primitive of the scene.
+struct PrimitiveId {
+  std::uint32_t inst, geom, prim;
+  constexpr auto operator<=>(const PrimitiveId&) const = default;
+};
+
+/// One geometry under one instance: a run of consecutive references.
+struct Part {
+  std::uint32_t instance, geometry;  ///< indices into instances() and geometries()
+  std::uint32_t first_reference;     ///< reference i of this part is primitive i - first_reference
+};
+
+/// Counts for the scene report.
+struct SceneCounts {
+  std::uint64_t triangles = 0, spheres = 0, cones = 0;  ///< distinct, not instanced
+  std::uint64_t references = 0;                         ///< instanced primitives
+  std::uint64_t refused_zero_area = 0, refused_not_finite = 0, refused_repeated_vertex = 0;
+  std::uint64_t refused_curved = 0;  ///< invalid spheres and cones
+  std::uint64_t refused() const {
+    return refused_zero_area + refused_not_finite + refused_repeated_vertex + refused_curved;
+  }
+};
+
+/// The checked, immutable scene.
+class Scene {
+ public:
+  /// Checks and freezes. O(primitives + vertices).
+  /// Throws Error{bad_input}: an index out of range, a finite float64 coordinate of magnitude
+  ///   outside 2^-240..2^240, a near-singular instance map (condition above 2^30), instance
+  ///   ranges out of bounds; Error{resource}: more than 2^32 - 2 instanced primitives.
+  explicit Scene(SceneData data);
+
+  const SceneData& data() const { return data_; }
+  const std::vector<Geometry>& geometries() const { return data_.geometries; }
+  const std::vector<Instance>& instances() const { return data_.instances; }
+  const std::vector<Affine>& to_object() const { return to_object_; }  ///< per instance
+  const SceneCounts& counts() const { return counts_; }
+
+  /// References: every primitive under every instance, numbered 0..size()-1 in part order, which is
+  /// ascending (instance, geometry, primitive) index order.
+  std::uint32_t size() const { return reference_count_; }
+  const std::vector<Part>& parts() const { return parts_; }
+  const Part& part_of(std::uint32_t reference) const {
+    if (parts_.size() == 1) return parts_.front();
+    std::uint32_t p = first_part_of_block_[reference / kBlock];
+    while (p + 1 < parts_.size() && parts_[p + 1].first_reference <= reference) ++p;
+    return parts_[p];
+  }
+  PrimitiveId id_of(std::uint32_t reference) const;
+
+  /// World box of a reference; empty exactly when it can never be hit (refused primitives).
+  Aabb bounds(std::uint32_t reference) const;
+  /// Conservative world box of the part of the reference inside box; empty only if that part is.
+  Aabb clip(std::uint32_t reference, const Aabb& box) const;
+  /// Union of all reference boxes.
+  const Aabb& bounds() const { return bounds_; }
+
+  /// What rays are prepared with: in world space, and in the object space of an instance.
+  const RayFrame& world_frame() const { return world_frame_; }
+  const RayFrame& object_frame(std::uint32_t instance) const { return object_frames_[instance]; }
+
+  /// Content hash of geometry, instances and ids (not of materials, view, warnings).
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  static constexpr std::uint32_t kBlock = 64;
+  void check_geometries();
+  void number_parts();
+  void place_instances();
+  void hash_content();
+
+  SceneData data_;
+  std::vector<Affine> to_object_;
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> first_part_of_block_;
+  std::vector<Aabb> geometry_bounds_;
+  std::vector<RayFrame> object_frames_;
+  RayFrame world_frame_;
+  Aabb bounds_;
+  SceneCounts counts_;
+  std::uint32_t reference_count_ = 0;
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace strahl

@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <cmath>
+
+#include <strahl/math/ray.h>
+
+namespace strahl {
+namespace {
+
+bool is_coordinate(double v) {
+  const double a = std::abs(v);
+  return a == 0.0 || (a >= 0x1p-240 && a <= 0x1p240);
+}
+bool are_coordinates(const Vec3d& v) {
+  return is_coordinate(v.x) && is_coordinate(v.y) && is_coordinate(v.z);
+}
+
+}  // namespace
+
+bool is_valid(const Ray& ray) {
+  return are_coordinates(ray.org) && are_coordinates(ray.dir) && norm_max(ray.dir) > 0.0 &&
+         ray.t_min >= 0.0 && std::isfinite(ray.t_min) && ray.t_max >= 0.0;
+}
+
+PreparedRay::PreparedRay(const Ray& ray, const RayFrame& frame)
+    : org(ray.org), dir(ray.dir), t_min(ray.t_min), t_max(ray.t_max) {
+  const double widen = frame.widen_absolute + frame.widen_per_org * norm_max(org);
+  for (int axis = 0; axis < 3; ++axis) {
+    negative[axis] = dir[axis] < 0.0;
+    inv_dir[axis] = dir[axis] == 0.0 ? Aabb::kInf : 1.0 / dir[axis];
+    near_org[axis] = negative[axis] ? org[axis] - widen : org[axis] + widen;
+    far_org[axis] = negative[axis] ? org[axis] + widen : org[axis] - widen;
+  }
+  t_enter = lowered(t_min, kHitMargin);
+  t_exit = std::min(raised(t_max, kHitMargin), std::numeric_limits<double>::max());
+  // 16 u |dir|_1 M^2, M >= |vertex - org| for every vertex: see geometry/triangle.h.
+  const double reach = norm_max(max(abs(frame.bounds.lo - org), abs(frame.bounds.hi - org)));
+  edge_error = 16 * 0x1p-53 * norm1(dir) * reach * reach;
+}
+
+}  // namespace strahl
