@@ -18,11 +18,11 @@ inline std::filesystem::path shared_dir() {
 
 }  // namespace strahl::test
 
-/// Skips the running test, with a message, where `path` (relative to the shared data) is absent.
-#define STRAHL_REQUIRE_SHARED(path)                                                \
-  do {                                                                             \
-    const std::filesystem::path required_ = ::strahl::test::shared_dir() / (path); \
-    if (!std::filesystem::exists(required_)) {                                     \
-      GTEST_SKIP() << "shared data absent (set STRAHL_SHARED): " << required_;     \
-    }                                                                              \
+/// Skips the running test, with a message, where `relative` (below the shared data) is absent.
+#define STRAHL_REQUIRE_SHARED(relative)                                        \
+  do {                                                                         \
+    const auto required_ = ::strahl::test::shared_dir() / (relative);          \
+    if (!std::filesystem::exists(required_)) {                                 \
+      GTEST_SKIP() << "shared data absent (set STRAHL_SHARED): " << required_; \
+    }                                                                          \
   } while (false)
