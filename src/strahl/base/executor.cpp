@@ -91,6 +91,14 @@ struct Executor::Arena {
 
 #endif
 
+bool Executor::threads_available() noexcept {
+#ifdef STRAHL_HAVE_TBB
+  return true;
+#else
+  return false;
+#endif
+}
+
 Executor Executor::with_threads(int n) {
   Executor executor;
   if (n <= 1) return executor;

@@ -25,6 +25,9 @@ class Executor {
   /// Throws Error{unsupported} for n > 1 without oneTBB, Error{usage} above 4096.
   static Executor with_threads(int n);
 
+  /// Whether with_threads() can do more than one: the library was built with oneTBB.
+  static bool threads_available() noexcept;
+
   /// The greatest number of tasks that run at once; 1 when serial.
   int width() const noexcept;
 
