@@ -22,6 +22,8 @@ function(strahl_configure_target target)
   target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -Wpedantic)
+    # g++ 12 reports overlapping copies inside std::string where there are none (GCC PR 105651).
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   endif()
   if(STRAHL_WERROR)
     target_compile_options(${target} PRIVATE -Werror)

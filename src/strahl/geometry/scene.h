@@ -14,6 +14,7 @@
 
 #include <strahl/geometry/cone.h>
 #include <strahl/geometry/mesh.h>
+#include <strahl/geometry/primitive_source.h>
 #include <strahl/geometry/sphere.h>
 #include <strahl/math/affine.h>
 
@@ -36,6 +37,7 @@ struct Geometry {
   std::vector<std::uint32_t> face_ids;   ///< source polygon of each primitive; empty: its own id
   std::vector<std::uint32_t> materials;  ///< index per primitive; empty: material 0 for all
   std::uint32_t geometry_id = 0;         ///< reported in hits
+  std::uint32_t mask = ~0u;              ///< rays whose mask shares no bit pass through
   std::string name;
 
   std::size_t size() const {
@@ -95,7 +97,7 @@ struct SceneCounts {
 };
 
 /// The checked, immutable scene.
-class Scene {
+class Scene final : public PrimitiveSource {
  public:
   /// Checks and freezes. O(primitives + vertices).
   /// Throws Error{bad_input}: an index out of range, a finite float64 coordinate of magnitude
@@ -111,7 +113,7 @@ class Scene {
 
   /// References: every primitive under every instance, numbered 0..size()-1 in part order, which is
   /// ascending (instance, geometry, primitive) index order.
-  std::uint32_t size() const { return reference_count_; }
+  std::uint32_t size() const override { return reference_count_; }
   const std::vector<Part>& parts() const { return parts_; }
   const Part& part_of(std::uint32_t reference) const {
     if (parts_.size() == 1) return parts_.front();
@@ -122,15 +124,16 @@ class Scene {
   PrimitiveId id_of(std::uint32_t reference) const;
 
   /// World box of a reference; empty exactly when it can never be hit (refused primitives).
-  Aabb bounds(std::uint32_t reference) const;
+  Aabb bounds(std::uint32_t reference) const override;
   /// Conservative world box of the part of the reference inside box; empty only if that part is.
-  Aabb clip(std::uint32_t reference, const Aabb& box) const;
+  Aabb clip(std::uint32_t reference, const Aabb& box) const override;
   /// Union of all reference boxes.
-  const Aabb& bounds() const { return bounds_; }
+  const Aabb& total_bounds() const { return bounds_; }
 
   /// What rays are prepared with: in world space, and in the object space of an instance.
   const RayFrame& world_frame() const { return world_frame_; }
   const RayFrame& object_frame(std::uint32_t instance) const { return object_frames_[instance]; }
+  bool is_identity(std::uint32_t instance) const { return is_identity_[instance] != 0; }
 
   /// Content hash of geometry, instances and ids (not of materials, view, warnings).
   std::uint64_t hash() const { return hash_; }
@@ -138,15 +141,18 @@ class Scene {
  private:
   static constexpr std::uint32_t kBlock = 64;
   void check_geometries();
+  void check_instances();
   void number_parts();
-  void place_instances();
+  void bound_parts();
+  void widen_for_instances();
   void hash_content();
 
   SceneData data_;
   std::vector<Affine> to_object_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> first_part_of_block_;
-  std::vector<Aabb> geometry_bounds_;
+  std::vector<Aabb> geometry_bounds_;  ///< of never refused primitives, object space
+  std::vector<std::uint8_t> is_identity_;
   std::vector<RayFrame> object_frames_;
   RayFrame world_frame_;
   Aabb bounds_;

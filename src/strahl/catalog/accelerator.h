@@ -1,0 +1,110 @@
+// catalog/accelerator.h - any structure over a scene, behind one interface: batches of rays in,
+// hits out.
+//
+// The structure is called virtually once per span of rays, never per node. All answers are pure
+// functions of the bits of rays and scene: structure, options, threads and spans do not change
+// them. Thread safety: const methods are safe from any number of threads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <strahl/base/build_context.h>
+#include <strahl/build/build_report.h>
+#include <strahl/query/counters.h>
+#include <strahl/query/ray_batch.h>
+
+namespace strahl {
+
+/// What the caller of a batch grants it. progress returning false cancels with Error{cancelled}.
+struct BatchContext {
+  BuildContext context;     ///< executor, progress, memory limit for the hits of all_hits
+  bool count_work = false;  ///< fill BatchReport::counters (slower)
+};
+
+/// What happened besides the answers.
+struct BatchReport {
+  std::uint64_t invalid_rays = 0;  ///< hit nothing, see docs/semantics.md
+  Counters counters;               ///< zero unless asked for
+};
+
+/// Hits of ray i are hits[splits[i]] .. hits[splits[i + 1]], in the order of hits.
+struct AllHits {
+  std::vector<Hit> hits;
+  std::vector<std::int64_t> splits;  ///< n + 1 entries
+};
+
+/// Where a point lies; the numbers are those of the `inside` array.
+enum class Side : std::int8_t { outside = -1, on_surface = 0, inside = 1 };
+
+enum class QueryKind { closest, any, all, count, inside };
+
+/// A span of a batch with the output of its kind; for implementers of Accelerator only.
+struct SpanJob {
+  const RayBatch& rays;
+  std::size_t begin, end;
+  QueryKind kind;
+  bool count_work;
+  Hit* closest = nullptr;
+  std::uint8_t* any = nullptr;
+  std::uint32_t* counts = nullptr;  ///< also the hits per ray of `all`
+  Side* sides = nullptr;
+  std::vector<Hit>* all = nullptr;  ///< appended ray by ray
+};
+
+/// A built structure. Keeps the scene alive.
+class Accelerator {
+ public:
+  virtual ~Accelerator() = default;
+  Accelerator(const Accelerator&) = delete;
+  Accelerator& operator=(const Accelerator&) = delete;
+
+  const Scene& scene() const { return *scene_; }
+  /// Canonical SPEC: name and the options that differ from their defaults.
+  const std::string& spec() const { return spec_; }
+  const BuildReport& report() const { return report_; }
+
+  /// The first hit of each ray in the order of hits. hits.size() == rays.size(), else Error{usage}.
+  /// A miss has reference kNoId and t = inf. O(n * k), k primitives and nodes met per ray.
+  BatchReport closest_hit(const RayBatch& rays, std::span<Hit> hits,
+                          const BatchContext& context = {}) const;
+  /// 1 where the ray hits anything, else 0.
+  BatchReport any_hit(const RayBatch& rays, std::span<std::uint8_t> occluded,
+                      const BatchContext& context = {}) const;
+  /// Number of hits of each ray.
+  BatchReport count_hits(const RayBatch& rays, std::span<std::uint32_t> counts,
+                         const BatchContext& context = {}) const;
+  /// Every hit of each ray, sorted. Error{resource} when the hits pass the memory limit.
+  BatchReport all_hits(const RayBatch& rays, AllHits& hits, const BatchContext& context = {}) const;
+  /// Where the origins lie, by exact parity of the crossings along one fixed direction; the
+  /// directions and intervals of the rays are not used. Meant for closed meshes.
+  BatchReport inside(const RayBatch& rays, std::span<Side> sides,
+                     const BatchContext& context = {}) const;
+  /// One ray. The same bits as in a batch.
+  Hit closest_hit(const Ray& ray) const;
+
+  /// Checks every invariant of the structure; throws std::logic_error naming the first broken one.
+  virtual void validate() const = 0;
+  /// Content hash of the built structure: equal for any number of threads.
+  virtual std::uint64_t tree_hash() const = 0;
+  /// Moves vertices without changing topology. Throws Error{unsupported} unless overridden.
+  virtual void update(std::shared_ptr<const Scene> moved, const BuildContext& context);
+
+ protected:
+  Accelerator(std::shared_ptr<const Scene> scene, std::string spec)
+      : scene_(std::move(scene)), spec_(std::move(spec)) {}
+  /// Answers one span; called from several threads at once.
+  virtual BatchReport trace_span(const SpanJob& job) const = 0;
+
+  std::shared_ptr<const Scene> scene_;
+  std::string spec_;
+  BuildReport report_;
+
+ private:
+  BatchReport run(SpanJob whole, const BatchContext& context) const;
+};
+
+}  // namespace strahl

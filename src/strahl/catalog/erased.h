@@ -1,0 +1,168 @@
+// catalog/erased.h - turns a structure into an Accelerator. Only the generated file of each
+// structure includes it, so no translation unit sees two structures.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+
+#include <strahl/base/hash.h>
+#include <strahl/base/timer.h>
+#include <strahl/catalog/accelerator.h>
+#include <strahl/catalog/catalog.h>
+#include <strahl/query/policies.h>
+#include <strahl/query/scene_visitor.h>
+
+namespace strahl {
+
+/// Direction of `inside`: none of a mesh's likely planes or edges contain it.
+inline constexpr Vec3d kInsideDirection{0.38268343, 0.50118314, 0.77614205};
+
+/// Sorts and removes what duplicated references found twice.
+inline void make_unique(std::vector<Hit>& hits) {
+  std::sort(hits.begin(), hits.end(), comes_before);
+  hits.erase(std::unique(hits.begin(), hits.end(), is_same_hit), hits.end());
+}
+
+/// S has kName, kTitle, kRefersOnce, Options, a constructor from (PrimitiveSource, Options,
+/// BuildContext), trace(), report(), validate(source), hash_into(hash).
+template <class S>
+class Erased final : public Accelerator {
+ public:
+  Erased(std::shared_ptr<const Scene> scene, const typename S::Options& options,
+         const BuildContext& context)
+      : Accelerator(std::move(scene), canonical_spec(S::kName, format_options(options))),
+        structure_(*scene_, options, context) {}
+
+  void set_seconds(double seconds) {
+    report_ = structure_.report();
+    report_.seconds = seconds;
+  }
+  void validate() const override { structure_.validate(*scene_); }
+  std::uint64_t tree_hash() const override {
+    Hash64 hash;
+    structure_.hash_into(hash);
+    return hash.digest();
+  }
+
+ private:
+  BatchReport trace_span(const SpanJob& job) const override {
+    return job.count_work ? trace_counted<Counters>(job) : trace_counted<NoCounters>(job);
+  }
+
+  template <class C>
+  BatchReport trace_counted(const SpanJob& job) const {
+    BatchReport report;
+    C counters;
+    switch (job.kind) {
+      case QueryKind::closest:
+        closest(job, counters, report);
+        break;
+      case QueryKind::any:
+        any(job, counters, report);
+        break;
+      case QueryKind::inside:
+        inside(job, counters, report);
+        break;
+      case QueryKind::all:
+      case QueryKind::count:
+        collect(job, counters, report);
+        break;
+    }
+    if constexpr (std::is_same_v<C, Counters>) report.counters = counters;
+    return report;
+  }
+
+  template <class Q, class C>
+  void trace(SceneVisitor& prims, const Ray& ray, Q& query, C& counters) const {
+    prims.begin_ray();
+    structure_.trace(prims, PreparedRay(ray, scene_->world_frame()), query, counters);
+  }
+
+  /// Calls body(i, ray, filter) for the valid rays of the span and counts the others.
+  template <class Body>
+  static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body) {
+    for (std::size_t i = job.begin; i < job.end; ++i) {
+      const Ray ray = job.rays.ray(i);
+      if (is_valid(ray))
+        body(i, ray, job.rays.filter(i));
+      else
+        ++report.invalid_rays;
+    }
+  }
+
+  template <class C>
+  void closest(const SpanJob& job, C& counters, BatchReport& report) const {
+    SceneVisitor prims(*scene_);
+    std::fill(job.closest + job.begin, job.closest + job.end, Hit{});
+    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
+      ClosestHit query(ray, filter);
+      trace(prims, ray, query, counters);
+      job.closest[i] = query.best;
+    });
+  }
+
+  template <class C>
+  void any(const SpanJob& job, C& counters, BatchReport& report) const {
+    SceneVisitor prims(*scene_);
+    std::fill(job.any + job.begin, job.any + job.end, std::uint8_t{0});
+    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
+      AnyHit query(ray, filter);
+      trace(prims, ray, query, counters);
+      job.any[i] = query.found;
+    });
+  }
+
+  template <class C>
+  void collect(const SpanJob& job, C& counters, BatchReport& report) const {
+    SceneVisitor prims(*scene_);
+    std::vector<Hit> hits;
+    std::fill(job.counts + job.begin, job.counts + job.end, 0u);
+    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
+      hits.clear();
+      CollectHits query(ray, filter, hits);
+      trace(prims, ray, query, counters);
+      if (!S::kRefersOnce || job.all != nullptr) make_unique(hits);
+      job.counts[i] = static_cast<std::uint32_t>(hits.size());
+      if (job.all != nullptr) job.all->insert(job.all->end(), hits.begin(), hits.end());
+    });
+  }
+
+  template <class C>
+  void inside(const SpanJob& job, C& counters, BatchReport& report) const {
+    SceneVisitor prims(*scene_);
+    std::vector<Hit> hits;
+    for (std::size_t i = job.begin; i < job.end; ++i) {
+      const Ray ray{job.rays.org[i], kInsideDirection};
+      job.sides[i] = Side::outside;
+      if (!is_valid(ray)) {
+        ++report.invalid_rays;
+        continue;
+      }
+      hits.clear();
+      InsideTest query(ray, job.rays.filter(i), hits);
+      trace(prims, ray, query, counters);
+      if constexpr (!S::kRefersOnce) make_unique(hits);
+      job.sides[i] = query.is_on_surface    ? Side::on_surface
+                     : hits.size() % 2 == 1 ? Side::inside
+                                            : Side::outside;
+    }
+  }
+
+  S structure_;
+};
+
+/// The catalogue's row for S.
+template <class S>
+StructureEntry make_entry() {
+  return {S::kName, S::kTitle, &describe_options<typename S::Options>,
+          [](std::shared_ptr<const Scene> scene, std::span<const OptionValue> given,
+             const BuildContext& context) -> std::unique_ptr<Accelerator> {
+            const auto options = parse_options<typename S::Options>(given, S::kName);
+            const Timer timer;
+            auto built = std::make_unique<Erased<S>>(std::move(scene), options, context);
+            built->set_seconds(timer.seconds());
+            return built;
+          }};
+}
+
+}  // namespace strahl

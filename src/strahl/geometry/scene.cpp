@@ -1,0 +1,248 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <strahl/base/error.h>
+#include <strahl/base/hash.h>
+#include <strahl/geometry/scene.h>
+#include <strahl/geometry/triangle.h>
+
+namespace strahl {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+/// Bound (1 + u)^k - 1 for small k, with room to spare.
+constexpr double gamma(int k) { return 1.0001 * k * kUnit; }
+
+[[noreturn]] void refuse(const SceneData& data, std::string where, const std::string& reason) {
+  throw Error(ErrorCode::bad_input, reason, data.source, std::move(where));
+}
+
+bool is_in_range(double v) {
+  const double a = std::abs(v);
+  return a == 0.0 || !std::isfinite(v) || (a >= 0x1p-240 && a <= 0x1p240);
+}
+
+void check_indices(const SceneData& data, const Geometry& g) {
+  for (std::size_t i = 0; i < g.mesh.size(); ++i) {
+    const IndexView::Triple t = g.mesh.triangles[i];
+    const std::uint64_t largest = std::max({t.a, t.b, t.c});
+    if (largest >= g.mesh.vertices.count)
+      refuse(data, "triangle " + std::to_string(i),
+             "vertex index " + std::to_string(largest) + " of " +
+                 std::to_string(g.mesh.vertices.count) + " vertices");
+  }
+}
+
+void check_vertices(const SceneData& data, const Geometry& g) {
+  if (!g.mesh.vertices.is_double) return;
+  for (std::size_t i = 0; i < g.mesh.vertices.count; ++i) {
+    const Vec3d v = g.mesh.vertices[i];
+    if (!is_in_range(v.x) || !is_in_range(v.y) || !is_in_range(v.z))
+      refuse(data, "vertex " + std::to_string(i),
+             "a coordinate's magnitude is outside 2^-240..2^240");
+  }
+}
+
+void count_defects(const Geometry& g, SceneCounts& counts) {
+  for (std::size_t i = 0; i < g.mesh.size(); ++i) {
+    const TriangleDefect defect = find_defect(g.mesh[i]);
+    counts.refused_not_finite += defect == TriangleDefect::not_finite;
+    counts.refused_repeated_vertex += defect == TriangleDefect::repeated_vertex;
+    counts.refused_zero_area += defect == TriangleDefect::zero_area;
+  }
+}
+
+Aabb object_bounds(const Geometry& g, std::size_t prim) {
+  switch (g.kind) {
+    case PrimitiveKind::sphere:
+      return bounds(g.spheres[prim]);
+    case PrimitiveKind::cone:
+      return bounds(g.cones[prim]);
+    case PrimitiveKind::triangle:
+      break;
+  }
+  const TriangleVertices tri = g.mesh[prim];
+  return find_defect(tri) == TriangleDefect::none ? tri.bounds() : Aabb{};
+}
+
+TriangleVertices transformed(const Affine& map, const TriangleVertices& t) {
+  return {map.point(t.a), map.point(t.b), map.point(t.c)};
+}
+
+/// Box around the images of the eight corners.
+Aabb transformed(const Affine& map, const Aabb& box) {
+  Aabb image;
+  for (int corner = 0; corner < 8; ++corner)
+    image.extend(map.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                            corner & 4 ? box.hi.z : box.lo.z}));
+  return image;
+}
+
+double radius(const Aabb& box) {
+  return box.is_empty() ? 0.0 : std::max(norm_max(box.lo), norm_max(box.hi));
+}
+
+double translation_norm(const Affine& a) {
+  return norm_max(Vec3d{a.m[0][3], a.m[1][3], a.m[2][3]});
+}
+
+}  // namespace
+
+Scene::Scene(SceneData data) : data_(std::move(data)) {
+  if (data_.instances.empty() && !data_.geometries.empty())
+    data_.instances.push_back({0, static_cast<std::uint32_t>(data_.geometries.size()), {}, 0});
+  check_geometries();
+  check_instances();
+  number_parts();
+  bound_parts();
+  widen_for_instances();
+  hash_content();
+}
+
+void Scene::check_geometries() {
+  for (const Geometry& g : data_.geometries) {
+    if (g.size() > 0xfffffffeu)
+      throw Error(ErrorCode::resource, "more than 2^32 - 2 primitives in a geometry", data_.source);
+    if (g.kind == PrimitiveKind::triangle) {
+      check_indices(data_, g);
+      check_vertices(data_, g);
+      count_defects(g, counts_);
+      counts_.triangles += g.size();
+    }
+    Aabb all;
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      const Aabb box = object_bounds(g, i);
+      if (g.kind != PrimitiveKind::triangle) counts_.refused_curved += box.is_empty();
+      all.extend(box);
+    }
+    counts_.spheres += g.spheres.size(), counts_.cones += g.cones.size();
+    geometry_bounds_.push_back(all);
+  }
+}
+
+void Scene::check_instances() {
+  for (std::size_t i = 0; i < data_.instances.size(); ++i) {
+    const Instance& inst = data_.instances[i];
+    const std::string where = "instance " + std::to_string(inst.instance_id);
+    if (std::uint64_t{inst.first_geometry} + inst.geometry_count > data_.geometries.size())
+      refuse(data_, where, "refers to a geometry that does not exist");
+    if (!is_well_conditioned(inst.to_world))
+      refuse(data_, where, "its transformation is singular or nearly so (condition above 2^30)");
+    is_identity_.push_back(inst.to_world.is_identity());
+    to_object_.push_back(inverse(inst.to_world));
+  }
+}
+
+void Scene::number_parts() {
+  std::uint64_t next = 0;
+  for (std::uint32_t i = 0; i < data_.instances.size(); ++i) {
+    const Instance& inst = data_.instances[i];
+    for (std::uint32_t g = inst.first_geometry; g < inst.first_geometry + inst.geometry_count;
+         ++g) {
+      if (data_.geometries[g].size() == 0) continue;
+      parts_.push_back({i, g, static_cast<std::uint32_t>(next)});
+      next += data_.geometries[g].size();
+      if (next > 0xfffffffeu)
+        throw Error(ErrorCode::resource, "more than 2^32 - 2 instanced primitives", data_.source);
+    }
+  }
+  reference_count_ = static_cast<std::uint32_t>(next);
+  counts_.references = next;
+  std::uint32_t part = 0;
+  for (std::uint64_t first = 0; first < next; first += kBlock) {
+    while (part + 1 < parts_.size() && parts_[part + 1].first_reference <= first) ++part;
+    first_part_of_block_.push_back(part);
+  }
+}
+
+void Scene::bound_parts() {
+  object_frames_.resize(data_.instances.size());
+  for (const Part& part : parts_) {
+    object_frames_[part.instance].bounds.extend(geometry_bounds_[part.geometry]);
+    if (is_identity_[part.instance]) world_frame_.bounds.extend(geometry_bounds_[part.geometry]);
+  }
+  for (std::uint32_t r = 0; r < reference_count_; ++r) bounds_.extend(bounds(r));
+  if (radius(bounds_) > 0x1p240)
+    refuse(data_, "", "a transformed coordinate's magnitude is above 2^240");
+}
+
+// Let W = to_object (as stored), T = to_world, R0 the world radius, R' the object radius. A ray is
+// transformed with |error| <= gamma(4) (|W| |o| + |w|) in the origin and gamma(3) |W| |d| in the
+// direction; at a hit X on the world ray |t d| <= |X| + |o| and |X| <= 2 R0 + |o|. Curved hits add
+// gamma(3) (R' + |W| |o| + |w|) for the clamped t. All together, in object space:
+//     err <= gamma(8) (|W| (3 |o| + 2 R0) + |w| + R').
+// In the world that is at most 2 |T| err. Boxes are made with T instead of the inverse of W: with
+// T W = I + F the difference is at most |F| |X| + |f|, and T v is rounded: gamma(4) (|T| R' + |t|).
+// The sum is doubled once more for the roundings of this very computation.
+void Scene::widen_for_instances() {
+  const double world_radius = radius(bounds_);
+  for (std::size_t i = 0; i < data_.instances.size(); ++i) {
+    if (is_identity_[i]) continue;
+    const Affine &T = data_.instances[i].to_world, &W = to_object_[i];
+    const double nT = norm_rows(T), nW = norm_rows(W);
+    const double w = translation_norm(W), t = translation_norm(T);
+    const double own_radius = radius(object_frames_[i].bounds);
+    Affine residual = T * W;
+    for (std::size_t k = 0; k < 3; ++k) residual.m[k][k] -= 1.0;
+    const double F = norm_rows(residual) + gamma(5) * nT * nW;
+    const double f = translation_norm(residual) + gamma(5) * (nT * w + t);
+    const double per_org = 2 * nT * gamma(8) * 3 * nW + 2 * F + 2 * kUnit;
+    const double absolute = 2 * nT * gamma(8) * (2 * nW * world_radius + w + own_radius) +
+                            2 * (2 * F * world_radius + f) + gamma(4) * (nT * own_radius + t);
+    world_frame_.widen_per_org = std::max(world_frame_.widen_per_org, 2 * per_org);
+    world_frame_.widen_absolute = std::max(world_frame_.widen_absolute, 2 * absolute);
+  }
+}
+
+void Scene::hash_content() {
+  Hash64 hash;
+  for (const Geometry& g : data_.geometries) {
+    hash.add(g.kind), hash.add(g.geometry_id), hash.add(g.mask), hash.add(g.size());
+    for (std::size_t i = 0; i < g.mesh.size(); ++i) {
+      const TriangleVertices tri = g.mesh[i];
+      for (const Vec3d& v : {tri.a, tri.b, tri.c}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    }
+    for (const Sphere& s : g.spheres)
+      for (double v : {s.center.x, s.center.y, s.center.z, s.radius}) hash.add(v);
+    for (const Cone& c : g.cones)
+      for (double v : {c.base.x, c.base.y, c.base.z, c.base_radius, c.apex.x, c.apex.y, c.apex.z,
+                       c.apex_radius})
+        hash.add(v);
+  }
+  for (const Instance& inst : data_.instances) {
+    hash.add(inst.first_geometry), hash.add(inst.geometry_count), hash.add(inst.instance_id);
+    for (const auto& row : inst.to_world.m)
+      for (double v : row) hash.add(v);
+  }
+  hash_ = hash.digest();
+}
+
+PrimitiveId Scene::id_of(std::uint32_t reference) const {
+  const Part& part = part_of(reference);
+  return {data_.instances[part.instance].instance_id, data_.geometries[part.geometry].geometry_id,
+          reference - part.first_reference};
+}
+
+Aabb Scene::bounds(std::uint32_t reference) const {
+  const Part& part = part_of(reference);
+  const Geometry& g = data_.geometries[part.geometry];
+  const std::uint32_t prim = reference - part.first_reference;
+  const Aabb own = object_bounds(g, prim);
+  if (own.is_empty() || is_identity_[part.instance]) return own;
+  const Affine& map = data_.instances[part.instance].to_world;
+  if (g.kind == PrimitiveKind::triangle) return transformed(map, g.mesh[prim]).bounds();
+  return transformed(map, own);
+}
+
+Aabb Scene::clip(std::uint32_t reference, const Aabb& box) const {
+  const Part& part = part_of(reference);
+  const Geometry& g = data_.geometries[part.geometry];
+  if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(bounds(reference), box);
+  const TriangleVertices tri = g.mesh[reference - part.first_reference];
+  if (is_identity_[part.instance]) return strahl::clip(tri, box);
+  return strahl::clip(transformed(data_.instances[part.instance].to_world, tri), box);
+}
+
+}  // namespace strahl

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+#include <strahl/geometry/triangle.h>
+#include <strahl/math/expansion.h>
+
+namespace strahl {
+namespace {
+
+template <std::size_t N>
+struct ExactVec {
+  Expansion<N> x, y, z;
+};
+
+ExactVec<2> difference(const Vec3d& a, const Vec3d& b) {
+  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
+}
+template <std::size_t N, std::size_t M>
+auto exact_cross(const ExactVec<N>& a, const ExactVec<M>& b) {
+  return ExactVec<4 * N * M>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <std::size_t N, std::size_t M>
+auto exact_dot(const ExactVec<N>& a, const ExactVec<M>& b) {
+  return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+ExactVec<1> exact(const Vec3d& v) {
+  return {Expansion<1>(v.x), Expansion<1>(v.y), Expansion<1>(v.z)};
+}
+
+ExactVec<16> exact_normal(const TriangleVertices& tri) {
+  return exact_cross(difference(tri.b, tri.a), difference(tri.c, tri.a));
+}
+
+int sign(double v) { return (v > 0.0) - (v < 0.0); }
+
+int first_nonzero(std::initializer_list<int> signs) {
+  for (int s : signs)
+    if (s != 0) return s;
+  return 0;
+}
+
+/// Perturbation terms after dir . n = 0 and n = 0: those of org, then of both.
+int sign_on_edge_line(const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
+  const auto c = difference(q, p);
+  const auto m = exact_cross(exact(dir), c);
+  return first_nonzero({m.x.sign(), m.y.sign(), m.z.sign(), -c.z.sign(), c.y.sign(), -c.x.sign()});
+}
+
+/// numerator / denominator when both are certain to 2^-42, else empty.
+std::optional<double> certified_quotient(double numerator, double numerator_bound,
+                                         double denominator, double denominator_bound) {
+  if (!(std::abs(numerator) > 0x1p42 * numerator_bound)) return std::nullopt;
+  if (!(std::abs(denominator) > 0x1p42 * denominator_bound)) return std::nullopt;
+  return numerator / denominator;
+}
+
+/// Edge value over dir . N, or n . N / N . N for a ray in the plane of the triangle.
+double exact_weight(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri, const Vec3d& p,
+                    const Vec3d& q) {
+  const auto n = exact_cross(difference(p, org), difference(q, org));
+  const auto normal = exact_normal(tri);
+  const double denominator = rounded(exact_dot(normal, exact(dir)));
+  if (denominator != 0.0) return rounded(exact_dot(n, exact(dir))) / denominator;
+  return rounded(exact_dot(n, normal)) / rounded(exact_dot(normal, normal));
+}
+
+/// Weight of the corner opposite to edge (p, q): certified double, else exact.
+double weight(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri, const Vec3d& p,
+              const Vec3d& q) {
+  constexpr double kUnit = 0x1p-53;
+  const Vec3d P = p - org, Q = q - org, ab = tri.b - tri.a, ac = tri.c - tri.a;
+  const double spread = 2 * norm1(dir);
+  const std::optional<double> w =
+      certified_quotient(dot(cross(dir, P), Q), 8 * kUnit * spread * norm_max(P) * norm_max(Q),
+                         dot(dir, cross(ab, ac)), 9 * kUnit * spread * norm_max(ab) * norm_max(ac));
+  return (w ? *w : exact_weight(org, dir, tri, p, q)) + 0.0;
+}
+
+/// Unit normal; components exact and rounded once where cancellation threatens.
+Vec3d unit_normal(const TriangleVertices& tri) {
+  const Vec3d ab = tri.b - tri.a, ac = tri.c - tri.a;
+  Vec3d n = cross(ab, ac);
+  if (!(norm_max(n) > 0x1p-11 * norm_max(ab) * norm_max(ac))) {
+    const auto e = exact_normal(tri);
+    n = {rounded(e.x), rounded(e.y), rounded(e.z)};
+  }
+  int exponent = 0;  // a power of two first, so that squares stay in range
+  std::frexp(norm_max(n), &exponent);
+  const Vec3d scaled{std::ldexp(n.x, -exponent), std::ldexp(n.y, -exponent),
+                     std::ldexp(n.z, -exponent)};
+  const Vec3d unit = scaled / std::sqrt(dot(scaled, scaled));
+  return {unit.x + 0.0, unit.y + 0.0, unit.z + 0.0};
+}
+
+/// Exact orientation of (p, q, r) after dropping `axis`.
+int orientation_2d(const Vec3d& p, const Vec3d& q, const Vec3d& r, int axis) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return (exact_difference(q[u], p[u]) * exact_difference(r[v], p[v]) -
+          exact_difference(q[v], p[v]) * exact_difference(r[u], p[u]))
+      .sign();
+}
+
+/// A nearly convex polygon. Rounding may bend it, so a cut can replace each outside corner by two:
+/// 3 corners become at most 4, 6, 9, 13, 19, 28 in six cuts.
+struct Polygon {
+  std::array<Vec3d, 28> corner;
+  std::size_t count = 0;
+};
+
+/// Part of the polygon with side * x[axis] <= side * plane ([SutherlandHodgman1974]).
+Polygon cut(const Polygon& in, int axis, double plane, double side) {
+  Polygon out;
+  for (std::size_t i = 0; i < in.count; ++i) {
+    const Vec3d &p = in.corner[i], &q = in.corner[i + 1 == in.count ? 0 : i + 1];
+    const double dp = side * (p[axis] - plane), dq = side * (q[axis] - plane);
+    if (dp <= 0) out.corner[out.count++] = p;
+    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
+      Vec3d x = p + (q - p) * (dp / (dp - dq));
+      x[axis] = plane;
+      out.corner[out.count++] = x;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
+  const auto n = exact_cross(difference(p, org), difference(q, org));
+  const int first =
+      first_nonzero({exact_dot(n, exact(dir)).sign(), n.x.sign(), n.y.sign(), n.z.sign()});
+  return first != 0 ? first : sign_on_edge_line(dir, p, q);
+}
+
+int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
+  const double reach = norm_max(p - ray.org) * norm_max(q - ray.org);
+  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * reach) return sign(e);
+  return exact_edge_sign(ray.org, ray.dir, p, q);
+}
+
+std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {
+  const auto normal = exact_normal(tri);
+  const double denominator = rounded(exact_dot(normal, exact(dir)));
+  const double numerator = rounded(exact_dot(normal, difference(tri.a, org)));
+  if (denominator == 0.0) {
+    // Three agreeing signs with dir . N = 0: the origin lies on the triangle, in its plane.
+    if (numerator != 0.0) return std::nullopt;
+    return 0.0;
+  }
+  const double t = numerator / denominator;
+  if (!std::isfinite(t)) return std::nullopt;
+  return t;
+}
+
+TriangleSurface surface_at(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {
+  return {weight(org, dir, tri, tri.c, tri.a), weight(org, dir, tri, tri.a, tri.b),
+          unit_normal(tri)};
+}
+
+bool is_on_triangle(const Vec3d& point, const TriangleVertices& tri) {
+  if (!tri.bounds().contains(point)) return false;
+  const auto n = exact_normal(tri);
+  if (exact_dot(n, difference(tri.a, point)).sign() != 0) return false;
+  const int axis = n.x.sign() != 0 ? 0 : n.y.sign() != 0 ? 1 : 2;
+  const int s0 = orientation_2d(tri.a, tri.b, point, axis);
+  const int s1 = orientation_2d(tri.b, tri.c, point, axis);
+  const int s2 = orientation_2d(tri.c, tri.a, point, axis);
+  return (s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0);
+}
+
+TriangleDefect find_defect(const TriangleVertices& tri) {
+  if (!is_finite(tri.a) || !is_finite(tri.b) || !is_finite(tri.c))
+    return TriangleDefect::not_finite;
+  if (tri.a == tri.b || tri.b == tri.c || tri.c == tri.a) return TriangleDefect::repeated_vertex;
+  const Vec3d ab = tri.b - tri.a, ac = tri.c - tri.a;
+  // gamma(4) * 2 |ab| |ac| bounds the error of each component of the rounded normal.
+  if (norm_max(cross(ab, ac)) > 16 * 0x1p-53 * norm_max(ab) * norm_max(ac))
+    return TriangleDefect::none;
+  const auto n = exact_normal(tri);
+  const bool is_zero = n.x.sign() == 0 && n.y.sign() == 0 && n.z.sign() == 0;
+  return is_zero ? TriangleDefect::zero_area : TriangleDefect::none;
+}
+
+Aabb clip(const TriangleVertices& tri, const Aabb& box) {
+  const Aabb whole = Aabb::intersection(tri.bounds(), box);
+  if (whole.is_empty() || whole == tri.bounds()) return whole;
+  // A computed corner is off by at most 8 u times the largest coordinate per cut, six cuts: cut
+  // at planes moved outward by twice that, then widen the result by it.
+  const Aabb own = tri.bounds();
+  const double slack = 96 * 0x1p-53 * std::max(norm_max(own.lo), norm_max(own.hi));
+  Polygon polygon{{tri.a, tri.b, tri.c}, 3};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (own.hi[axis] > box.hi[axis]) polygon = cut(polygon, axis, box.hi[axis] + slack, 1.0);
+    if (own.lo[axis] < box.lo[axis]) polygon = cut(polygon, axis, box.lo[axis] - slack, -1.0);
+  }
+  Aabb part;
+  for (std::size_t i = 0; i < polygon.count; ++i) part.extend(polygon.corner[i]);
+  if (polygon.count == 0) return {};
+  part.lo = part.lo - Vec3d::all(slack), part.hi = part.hi + Vec3d::all(slack);
+  return Aabb::intersection(part, whole);
+}
+
+}  // namespace strahl

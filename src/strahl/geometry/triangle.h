@@ -1,0 +1,95 @@
+// geometry/triangle.h - the exact ray-triangle test that every structure shares.
+//
+// Rule (docs/semantics.md): a line crosses the triangle when the signs of its three directed edges
+//   agree; the sign of edge (p, q) is that of e = dir . (P x Q), P = p - org, Q = q - org, with
+//   zero resolved by a symbolic perturbation of dir and org (simulation of simplicity
+//   [Edelsbrunner1990]).
+// Filter: e is evaluated as (dir x P) . Q. Each of its six monomials d_i P_j Q_k carries at most
+//   seven roundings (P, Q, product, difference, product, two sums), so with M >= |P|, |Q| the error
+//   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = PreparedRay::edge_error. A larger |e|
+//   has a certain sign. Else the bound is sharpened to this edge, then the sign is computed
+//   exactly.
+// Parameter: t = (A . N) / (dir . N), N = (b - a) x (c - a). A . N and dir . N carry at most eight
+//   roundings per monomial; when both exceed 2^42 times that bound their quotient is within
+//   2^-41 + 2^-53 of the truth. Else both are computed exactly, rounded once, then divided.
+// Thread safety: pure functions. Needs round-to-nearest (see base/fp_env.h).
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include <strahl/geometry/mesh.h>
+#include <strahl/math/ray.h>
+
+namespace strahl {
+
+/// Exact sign (+1 or -1) of the directed edge (p, q) as the perturbed ray passes it; 0 if p == q.
+int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q);
+
+/// Canonical t from numerator and denominator computed exactly; empty when not finite.
+std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri);
+
+/// A crossing: parameter and whether the front side was hit (common edge sign -1).
+struct TriangleHit {
+  double t;
+  bool is_front;
+};
+
+/// Where a hit lies on its triangle: hit = (1 - u - v) a + u b + v c, unit vertex-order normal.
+struct TriangleSurface {
+  double u, v;
+  Vec3d normal;
+};
+
+/// Barycentric coordinates and normal of a hit found by intersect(). Canonical, exact fallback.
+TriangleSurface surface_at(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri);
+
+/// True when the point lies on the closed triangle, decided exactly.
+bool is_on_triangle(const Vec3d& point, const TriangleVertices& tri);
+
+enum class TriangleDefect { none, not_finite, repeated_vertex, zero_area };
+
+/// Why a triangle can never be hit, decided exactly.
+TriangleDefect find_defect(const TriangleVertices& tri);
+
+/// Conservative box of the part of the triangle inside box; empty only if that part is empty.
+Aabb clip(const TriangleVertices& tri, const Aabb& box);
+
+/// Sharper bound and exact evaluation for an edge whose filtered value is uncertain.
+/// @param e the filtered value, P and Q the rounded differences it was made of
+int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e);
+
+/// The sign of an edge value: certain, or resolved.
+inline int edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
+  if (e > ray.edge_error) return 1;
+  if (e < -ray.edge_error) return -1;
+  return resolve_edge_sign(ray, p, q, e);
+}
+
+/// Canonical t of a triangle known to be crossed; empty when not finite.
+inline std::optional<double> crossing_t(const PreparedRay& ray, const TriangleVertices& tri,
+                                        const Vec3d& A) {
+  const Vec3d ab = tri.b - tri.a, ac = tri.c - tri.a;
+  const Vec3d n = cross(ab, ac);
+  const double numerator = dot(A, n), denominator = dot(ray.dir, n);
+  // 2^42 * 9 u * 2 |ab| |ac|: what |numerator| / |A|_1 and |denominator| / |dir|_1 must exceed.
+  const double needed = 18 * 0x1p-11 * norm_max(ab) * norm_max(ac);
+  if (std::abs(numerator) > needed * norm1(A) && std::abs(denominator) > needed * norm1(ray.dir))
+    return numerator / denominator;
+  return exact_t(ray.org, ray.dir, tri);
+}
+
+/// The crossing of the ray's whole line with the triangle, if any; the caller checks the interval.
+inline std::optional<TriangleHit> intersect(const PreparedRay& ray, const TriangleVertices& tri) {
+  const Vec3d A = tri.a - ray.org, B = tri.b - ray.org, C = tri.c - ray.org;
+  const Vec3d dir_a = cross(ray.dir, A);
+  const int ab = edge_sign(ray, tri.a, tri.b, dot(dir_a, B));
+  const int ca = edge_sign(ray, tri.c, tri.a, -dot(dir_a, C));
+  if (ab != ca || ab == 0) return std::nullopt;
+  if (edge_sign(ray, tri.b, tri.c, dot(cross(ray.dir, B), C)) != ab) return std::nullopt;
+  const std::optional<double> t = crossing_t(ray, tri, A);
+  if (!t) return std::nullopt;
+  return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
+}
+
+}  // namespace strahl

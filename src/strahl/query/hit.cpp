@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include <strahl/geometry/triangle.h>
+#include <strahl/query/hit.h>
+#include <strahl/query/scene_visitor.h>
+
+namespace strahl {
+namespace {
+
+HitSurface object_surface(const Geometry& geometry, std::uint32_t prim, const Ray& ray, double t) {
+  HitSurface surface;
+  surface.face_id = geometry.face_ids.empty() ? prim : geometry.face_ids[prim];
+  if (geometry.kind == PrimitiveKind::sphere) {
+    surface.normal = normal_at(geometry.spheres[prim], ray.org, ray.dir, t);
+  } else if (geometry.kind == PrimitiveKind::cone) {
+    surface.normal = normal_at(geometry.cones[prim], ray.org, ray.dir, t);
+  } else {
+    const TriangleSurface s = surface_at(ray.org, ray.dir, geometry.mesh[prim]);
+    surface.u = s.u, surface.v = s.v, surface.normal = s.normal;
+  }
+  return surface;
+}
+
+Vec3d unit(const Vec3d& v) {
+  int exponent = 0;
+  std::frexp(norm_max(v), &exponent);
+  const Vec3d scaled{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent),
+                     std::ldexp(v.z, -exponent)};
+  const Vec3d n = normalized(scaled);
+  return {n.x + 0.0, n.y + 0.0, n.z + 0.0};
+}
+
+}  // namespace
+
+HitSurface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
+  if (!hit.is_hit()) return {};
+  const Part& part = scene.part_of(hit.reference);
+  const Geometry& geometry = scene.geometries()[part.geometry];
+  const std::uint32_t prim = hit.reference - part.first_reference;
+  if (scene.is_identity(part.instance)) return object_surface(geometry, prim, ray, hit.t);
+  const Affine& to_object = scene.to_object()[part.instance];
+  HitSurface surface = object_surface(geometry, prim, *to_object_space(ray, to_object), hit.t);
+  surface.normal = unit(to_object.transposed_vector(surface.normal));
+  return surface;
+}
+
+}  // namespace strahl

@@ -1,0 +1,22 @@
+// traverse/leaf.h - tests the references of a leaf or cell; every structure ends here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <strahl/math/ray.h>
+
+namespace strahl {
+
+/// Visits the references in order. True when the query stops the traversal.
+/// @param prims has visit(reference, ray, query, counters) -> stop
+template <class Prims, class Q, class C>
+bool test_leaf(std::span<const std::uint32_t> references, Prims& prims, const PreparedRay& ray,
+               Q& query, C& counters) {
+  counters.leaf_entered(references.empty());
+  for (const std::uint32_t reference : references)
+    if (prims.visit(reference, ray, query, counters)) return true;
+  return false;
+}
+
+}  // namespace strahl
