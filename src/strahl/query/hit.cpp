@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include <strahl/geometry/triangle.h>
 #include <strahl/query/hit.h>
 #include <strahl/query/scene_visitor.h>
@@ -21,15 +19,6 @@ HitSurface object_surface(const Geometry& geometry, std::uint32_t prim, const Ra
   return surface;
 }
 
-Vec3d unit(const Vec3d& v) {
-  int exponent = 0;
-  std::frexp(norm_max(v), &exponent);
-  const Vec3d scaled{std::ldexp(v.x, -exponent), std::ldexp(v.y, -exponent),
-                     std::ldexp(v.z, -exponent)};
-  const Vec3d n = normalized(scaled);
-  return {n.x + 0.0, n.y + 0.0, n.z + 0.0};
-}
-
 }  // namespace
 
 HitSurface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
@@ -40,7 +29,7 @@ HitSurface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
   if (scene.is_identity(part.instance)) return object_surface(geometry, prim, ray, hit.t);
   const Affine& to_object = scene.to_object()[part.instance];
   HitSurface surface = object_surface(geometry, prim, *to_object_space(ray, to_object), hit.t);
-  surface.normal = unit(to_object.transposed_vector(surface.normal));
+  surface.normal = unit(to_object.transposed_vector(surface.normal)) + Vec3d{};  // no -0
   return surface;
 }
 
