@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Proves that counters cost nothing when they are off.
 
-Compiles one file that instantiates the queries with NoCounters twice: from the sources as they are,
-and from a copy in which every counter call is deleted. Both objects must have the same machine code,
-byte for byte. For the deletion to be possible each call stands on a line of its own,
+Compiles one file that runs every query with NoCounters on every structure twice: from the sources as
+they are, and from a copy in which every counter call is deleted. Both objects must have the same
+machine code, byte for byte. For the deletion to be possible each call stands on a line of its own,
 `counters.<verb>(...);`, which is checked too.
 
-usage: check_counters.py FILE.cpp [--include DIR]     (DIR: folder that holds strahl/, default src)
+usage: check_counters.py [SRC]     (SRC: folder that holds strahl/, default that of the repository)
 """
-import argparse
 import os
 import pathlib
 import re
@@ -19,7 +18,9 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMPILER = os.environ.get("CXX", "g++")
-CALL = re.compile(r"^\s*counters\.\w+\(.*\);\s*$", re.MULTILINE)
+STRUCTURE = re.compile(r"^STRAHL_STRUCTURE\((\w+), (\w+)\)", re.MULTILINE)
+QUERIES = ["ClosestHit", "AnyHit", "CollectHits", "InsideTest"]
+CALL = re.compile(r"^[ \t]*counters\.\w+\(.*\);[ \t]*$", re.MULTILINE)
 ANY_CALL = re.compile(r"(?<![\w.>])counters\.\w+\(")
 
 
@@ -31,10 +32,15 @@ def run(command, folder):
     return done.stdout
 
 
-def stage(include, unit, folder):
-    """Copies the sources to folder/src and the unit to folder/unit.cpp."""
-    shutil.copytree(include, folder / "src", ignore=shutil.ignore_patterns("*_test.cpp"))
-    shutil.copy(unit, folder / "unit.cpp")
+def unit_text(structures):
+    """A translation unit with one function per structure and query."""
+    includes = "".join(f"#include <strahl/structures/{name}/{name}.h>\n" for name, _ in structures)
+    functions = "".join(
+        f"void {name}_{query}(const {kind}& structure, SceneVisitor& prims, const PreparedRay& ray, "
+        f"{query}& query, NoCounters& counters) {{ structure.trace(prims, ray, query, counters); }}\n"
+        for name, kind in structures for query in QUERIES)
+    return ("#include <strahl/query/policies.h>\n#include <strahl/query/scene_visitor.h>\n"
+            f"{includes}namespace strahl {{\n{functions}}}\n")
 
 
 def used_files(folder):
@@ -65,22 +71,22 @@ def machine_code(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument("unit", type=pathlib.Path)
-    parser.add_argument("--include", type=pathlib.Path, default=ROOT / "src")
-    arguments = parser.parse_args()
+    source = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "src")
+    structures = STRUCTURE.findall((source / "strahl/catalog/structures.def").read_text())
     with tempfile.TemporaryDirectory() as temporary:
         folders = [pathlib.Path(temporary) / name for name in ("as_is", "without")]
         for folder in folders:
-            stage(arguments.include, arguments.unit, folder)
+            shutil.copytree(source, folder / "src")
+            (folder / "unit.cpp").write_text(unit_text(structures), encoding="utf-8")
         deleted = delete_calls(folders[1])
         code = [machine_code(folder) for folder in folders]
     if deleted == 0:
-        sys.exit(f"counters: {arguments.unit} reaches no counter call, so nothing was checked")
+        sys.exit("counters: no counter call found, so nothing was checked")
     if code[0] != code[1]:
         sys.exit(f"counters: the machine code changes when the {deleted} counter calls are deleted")
     instructions = sum(line.count("\t") >= 2 for line in code[0].splitlines())
-    print(f"counters: {deleted} calls compile to nothing ({instructions} instructions compared)")
+    print(f"counters: {deleted} calls in {len(structures)} structures compile to nothing "
+          f"({instructions} instructions compared)")
 
 
 if __name__ == "__main__":

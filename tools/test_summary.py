@@ -22,15 +22,22 @@ def tests_of(file):
 
 
 def main():
-    files = [f for build in sys.argv[1:] for f in sorted(pathlib.Path(build).glob("test_results/*.xml"))]
-    tests = [test for file in files for test in tests_of(file)]
-    outcomes = collections.Counter(outcome for outcome, _ in tests)
-    reasons = collections.Counter(reason for outcome, reason in tests if outcome == "skipped")
-    for reason, count in reasons.most_common():
-        print(f"  {count} skipped: {reason}")
-    passed, failed, skipped = (outcomes[k] for k in ("completed", "failed", "skipped"))
-    print(f"{passed} tests passed, {failed} failed, {skipped} skipped")
-    return 0 if passed > 0 and failed == 0 else 1
+    total = collections.Counter()
+    for build in map(pathlib.Path, sys.argv[1:]):
+        tests = [t for file in sorted(build.glob("test_results/*.xml")) for t in tests_of(file)]
+        outcomes = collections.Counter(outcome for outcome, _ in tests)
+        total += outcomes
+        print(f"{build.name}: {describe(outcomes)}")
+        reasons = collections.Counter(reason for outcome, reason in tests if outcome == "skipped")
+        for reason, count in reasons.most_common():
+            print(f"  {count} skipped: {reason}")
+    print(f"all builds: {describe(total)}")
+    return 0 if total["completed"] > 0 and total["failed"] == 0 else 1
+
+
+def describe(outcomes):
+    return (f"{outcomes['completed']} tests passed, {outcomes['failed']} failed, "
+            f"{outcomes['skipped']} skipped")
 
 
 if __name__ == "__main__":
