@@ -1,0 +1,8 @@
+// tests/fuzz/off_fuzz.cpp - no bytes make the OFF reader crash, hang or throw anything but Error.
+#include <tests/fuzz/fuzz_reader.h>
+
+#include <strahl/io/off.h>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return strahl::fuzz_reader(strahl::read_off, data, size);
+}
