@@ -15,6 +15,7 @@
 #endif
 
 #include <strahl/base/error.h>
+#include <strahl/base/fork_join_edges.h>
 #include <strahl/base/fp_env.h>
 
 namespace strahl {
@@ -61,18 +62,23 @@ struct Executor::Arena {
   }
 
   void parallel_for(const Chunks& chunks, Body body) {
+    ForkJoinEdges edges;
     tasks.execute([&] {
       oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, chunks.count()),
                                 [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+                                  const ForkJoinEdges::Task task(edges);
                                   chunks.run(range.begin(), range.end(), body);
                                 });
     });
   }
 
   void invoke(function_ref<void()> first, function_ref<void()> second) {
-    tasks.execute([&] {
-      oneapi::tbb::parallel_invoke([&] { run_guarded(first); }, [&] { run_guarded(second); });
-    });
+    ForkJoinEdges edges;
+    const auto run = [&edges](function_ref<void()> function) {
+      const ForkJoinEdges::Task task(edges);
+      run_guarded(function);
+    };
+    tasks.execute([&] { oneapi::tbb::parallel_invoke([&] { run(first); }, [&] { run(second); }); });
   }
 
   int width;
