@@ -1,6 +1,7 @@
 // base/build_context_test.cpp - cancelling, serialised progress and the memory limit.
 #include <atomic>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -61,7 +62,9 @@ TEST(BuildContext, NeverRunsTheCallbackTwiceAtOnceEvenFromCopies) {
   std::atomic<int> overlaps = 0;
   int calls = 0;
   context.progress = [&](double, std::string_view) {
-    if (++inside > 1) ++overlaps;
+    ++inside;
+    std::this_thread::yield();  // gives another thread every chance to come in
+    if (inside > 1) ++overlaps;
     ++calls;
     --inside;
     return true;

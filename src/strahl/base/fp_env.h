@@ -2,7 +2,9 @@
 //
 // The certificates of the hit tests assume rounding to nearest, gradual underflow and no traps; a
 // host program may have changed any of them, per thread.
-// Thread safety: the environment belongs to the thread; a guard must die on the thread it was made.
+// Compilers may move arithmetic past a guard in the same function: do it in a function called
+// through a pointer or reference (as executor tasks are) or from another file. Thread safety: the
+// environment belongs to the thread; a guard must die on the thread it was made.
 #pragma once
 
 #include <cfenv>

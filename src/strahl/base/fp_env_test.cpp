@@ -13,17 +13,20 @@
 namespace strahl {
 namespace {
 
-// volatile keeps the compiler from folding the arithmetic under its own rounding mode.
+// volatile operands and results keep the compiler from folding the arithmetic or moving it to where
+// another environment holds.
 double one_third() {
   volatile double one = 1.0;
   volatile double three = 3.0;
-  return one / three;
+  volatile double quotient = one / three;
+  return quotient;
 }
 
 double half_of_smallest_normal() {
   volatile double smallest = std::numeric_limits<double>::min();
   volatile double half = 0.5;
-  return smallest * half;
+  volatile double product = smallest * half;
+  return product;
 }
 
 TEST(FpEnvGuard, RoundsToNearestInsideAndRestoresTheDirectionOutside) {

@@ -110,6 +110,13 @@ TEST(Options, RefuseTextThatIsNotWhollyANumber) {
   }
 }
 
+TEST(Options, RefuseInfinityEvenWhereTheRangeHasNoEnd) {
+  double value = 7;
+  EXPECT_FALSE(option_detail::read("inf", value));
+  EXPECT_FALSE(option_detail::read("nan", value));
+  EXPECT_EQ(value, 7);
+}
+
 TEST(Options, NameTheWordsOfAnEnumWhenItIsNotOneOfThem) {
   EXPECT_EQ(refusal({{"rule", "wooo"}}), "sample.rule: got 'wooo', expected one of woo, cubic");
 }

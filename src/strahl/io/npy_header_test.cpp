@@ -110,6 +110,11 @@ TEST(NpyHeader, RefusesTooFewAndTooManyData) {
   EXPECT_EQ(refusal(npy_file(literal, 24)), "accepted");
 }
 
+TEST(NpyHeader, SaysWhenTheHeaderIsLongerThanTheFile) {
+  EXPECT_EQ(refusal(std::string("\x93NUMPY\x02\x00\xff\xff\xff\xff{}", 14)),
+            "rays.npy: NPY header of 4294967295 bytes in a file of 14");
+}
+
 TEST(NpyHeader, IsNotFooledByHugeShapes) {
   for (const char* shape :
        {"(18446744073709551615,)", "(4294967296, 4294967296)", "(4294967296, 536870912)",
