@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include <strahl/geometry/point_tree.h>
 #include <strahl/geometry/polygon.h>
 #include <strahl/math/orient2d.h>
 
@@ -78,8 +79,8 @@ class EarClipper {
   bool is_ear(std::uint32_t i) const;
   bool blocks(std::uint32_t corner, const Point2& a, const Point2& b, const Point2& c) const;
   bool in_angle(const Point2& p, const Point2& a, const Point2& b, const Point2& c) const;
+  bool reaches_left_of(const Box2& box, const Point2& a, const Point2& b) const;
   std::uint32_t next_to_cut(std::uint32_t from) const;
-  void set_blocker(std::uint32_t i, bool blocker);
   void remove(std::uint32_t i);
 
   static constexpr std::uint32_t kNone = 0xffffffffU;
@@ -89,8 +90,7 @@ class EarClipper {
   std::vector<std::uint32_t> previous_, next_;
   std::vector<Turn> turns_;
   std::vector<std::uint8_t> ears_;
-  std::vector<std::uint32_t> blockers_;      ///< corners that do not turn left, any order
-  std::vector<std::uint32_t> blocker_slot_;  ///< where a corner is in blockers_, or kNone
+  PointTree blockers_;  ///< marks the corners that do not turn left
 };
 
 /// The side the whole boundary turns to: exact for simple polygons, whose lexicographically lowest
@@ -121,7 +121,7 @@ EarClipper::EarClipper(std::span<const Point2> points)
       next_(points.size()),
       turns_(points.size(), Turn::left),
       ears_(points.size(), 0),
-      blocker_slot_(points.size(), kNone) {
+      blockers_(points) {
   const std::uint32_t n = corner_count_;
   for (std::uint32_t i = 0; i < n; ++i) {
     previous_[i] = (i + n - 1) % n;
@@ -134,21 +134,7 @@ EarClipper::EarClipper(std::span<const Point2> points)
 void EarClipper::classify(std::uint32_t i) {
   const int turn = left_ * orient2d(points_[previous_[i]], points_[i], points_[next_[i]]);
   turns_[i] = turn > 0 ? Turn::left : turn == 0 ? Turn::straight : Turn::right;
-  set_blocker(i, turn <= 0);
-}
-
-void EarClipper::set_blocker(std::uint32_t i, bool blocker) {
-  const std::uint32_t slot = blocker_slot_[i];
-  if (blocker == (slot != kNone)) return;
-  if (blocker) {
-    blocker_slot_[i] = static_cast<std::uint32_t>(blockers_.size());
-    blockers_.push_back(i);
-    return;
-  }
-  blockers_[slot] = blockers_.back();
-  blocker_slot_[blockers_[slot]] = slot;
-  blockers_.pop_back();
-  blocker_slot_[i] = kNone;
+  blockers_.set_marked(i, turn <= 0);
 }
 
 /// True strictly inside the angle a, b, c.
@@ -171,17 +157,24 @@ bool EarClipper::blocks(std::uint32_t corner, const Point2& a, const Point2& b,
          left_ * orient2d(b, c, p) >= 0;
 }
 
+/// False only if the whole box lies strictly to the right of a -> b: its leftmost corner does.
+bool EarClipper::reaches_left_of(const Box2& box, const Point2& a, const Point2& b) const {
+  const bool high_x = left_ > 0 ? b.y < a.y : b.y > a.y;
+  const bool high_y = left_ > 0 ? b.x > a.x : b.x < a.x;
+  const Point2 corner{high_x ? box.high.x : box.low.x, high_y ? box.high.y : box.low.y};
+  return left_ * orient2d(a, b, corner) >= 0;
+}
+
 bool EarClipper::is_ear(std::uint32_t i) const {
   if (turns_[i] != Turn::left) return false;
   const Point2 &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
   const auto [x_low, x_high] = std::minmax({a.x, b.x, c.x});
   const auto [y_low, y_high] = std::minmax({a.y, b.y, c.y});
-  for (const std::uint32_t blocker : blockers_) {
-    const Point2& p = points_[blocker];
-    const bool near = p.x >= x_low && p.x <= x_high && p.y >= y_low && p.y <= y_high;
-    if (near && blocks(blocker, a, b, c)) return false;
-  }
-  return true;
+  const auto may_block = [&, x0 = x_low, x1 = x_high, y0 = y_low, y1 = y_high](const Box2& box) {
+    return box.low.x <= x1 && box.high.x >= x0 && box.low.y <= y1 && box.high.y >= y0 &&
+           reaches_left_of(box, a, b) && reaches_left_of(box, b, c) && reaches_left_of(box, c, a);
+  };
+  return !blockers_.any_marked(may_block, [&](std::uint32_t p) { return blocks(p, a, b, c); });
 }
 
 /// The first ear from `from` on. Polygons that cross or touch themselves may have none: then the
@@ -200,7 +193,7 @@ std::uint32_t EarClipper::next_to_cut(std::uint32_t from) const {
 void EarClipper::remove(std::uint32_t i) {
   const std::uint32_t before = previous_[i], after = next_[i];
   next_[before] = after, previous_[after] = before;
-  set_blocker(i, false);
+  blockers_.set_marked(i, false);
   classify(before), classify(after);
   ears_[before] = is_ear(before), ears_[after] = is_ear(after);
 }

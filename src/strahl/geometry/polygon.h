@@ -22,7 +22,8 @@ namespace strahl {
 /// Simple polygons, also with holes joined by a bridge edge, are covered exactly once (in the
 /// projection). Polygons that cross themselves or have no area get n - 2 triangles of some kind;
 /// those with corners that are not finite fan out.
-/// Complexity: O(n) for convex polygons; O(n + r n) for r corners that are not convex.
+/// Complexity: O(n) for convex polygons. Others: O(n log n) where few corners lie near each ear, as
+/// in outlines met in practice; at worst O(n^2).
 void triangulate_polygon(std::span<const Vec3d> corners,
                          std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -209,7 +209,22 @@ TEST(Polygon, AppendsBehindWhatIsThere) {
   EXPECT_EQ(triangles, (Triangles{{7, 8, 9}, {0, 1, 2}}));
 }
 
-TEST(Polygon, FiveThousandConcaveCornersAreCoveredOnce) { expect_covered_once(star(5000, 7)); }
+// A comb whose teeth all start from one long edge.
+std::vector<Vec3d> comb(int teeth) {
+  std::vector<Vec3d> corners{{2.0 * teeth, -1, 0}};
+  for (int i = teeth; i > 0; --i) {
+    corners.push_back({2.0 * i - 1, 100, 0});
+    corners.push_back({2.0 * i - 2, 0, 0});
+  }
+  corners.push_back({0, -1, 0});
+  return corners;
+}
+
+TEST(Polygon, ManyConcaveCornersAreCoveredOnce) {
+  expect_covered_once(star(5000, 7));
+  expect_covered_once(comb(2500));
+  expect_covered_once(star(50000, 8));
+}
 
 }  // namespace
 }  // namespace strahl
