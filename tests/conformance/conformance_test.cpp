@@ -1,0 +1,146 @@
+// Every structure of the catalogue against brute force: the same bits for every query.
+//
+// STRAHL_CONFORMANCE=full adds all pairs of option values on every adversarial scene; without it
+// pairs run on the tiny scenes and single options on all.
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <string_view>
+#include <tests/conformance/oracle.h>
+#include <tests/conformance/scenes.h>
+#include <tests/conformance/variants.h>
+
+#include <gtest/gtest.h>
+
+namespace strahl::test {
+namespace {
+
+constexpr std::size_t kRays = 1600;
+constexpr std::size_t kWalkedRays = 200;
+constexpr std::uint64_t kSeed = 2026;
+
+bool is_full() {
+  const char* mode = std::getenv("STRAHL_CONFORMANCE");
+  return mode != nullptr && std::string_view(mode) == "full";
+}
+
+struct Expected {
+  RaySet set;
+  Answers answers;
+};
+
+/// Rays of a scene and what brute force says; made once per process.
+const Expected& expected_of(const NamedScene& named) {
+  static std::map<std::string, Expected> cache;
+  const auto found = cache.find(named.name);
+  if (found != cache.end()) return found->second;
+  const auto scene = scene_of(named);
+  Expected e{adversarial_rays(*scene, kRays, kSeed), {}};
+  const auto oracle = build(scene, "brute_force");
+  std::vector<Hit> first(e.set.rays.size());
+  oracle->closest_hit(e.set.batch(false), first);
+  bind_filters(e.set, first, kSeed);
+  e.answers = ask(*oracle, e.set, {});
+  return cache.emplace(named.name, std::move(e)).first->second;
+}
+
+void expect_conforms(const NamedScene& named, const std::string& spec) {
+  SCOPED_TRACE(spec + " on " + named.name + ", seed " + std::to_string(kSeed));
+  const Expected& e = expected_of(named);
+  const auto accelerator = build(scene_of(named), spec);
+  ASSERT_NO_THROW(accelerator->validate());
+  ASSERT_EQ(first_difference(ask(*accelerator, e.set, {}), e.answers), "");
+}
+
+struct Param {
+  const StructureEntry* entry;
+  const NamedScene* scene;
+};
+
+void PrintTo(const Param& p, std::ostream* out) {
+  *out << p.entry->name << " on " << p.scene->name;
+}
+
+std::vector<Param> all_params() {
+  std::vector<Param> params;
+  for (const StructureEntry& entry : all_structures())
+    for (const NamedScene& scene : adversarial_scenes()) params.push_back({&entry, &scene});
+  return params;
+}
+
+class Conformance : public testing::TestWithParam<Param> {};
+
+TEST_P(Conformance, EveryOptionAloneAnswersLikeBruteForce) {
+  for (const std::string& spec : one_at_a_time(*GetParam().entry))
+    expect_conforms(*GetParam().scene, spec);
+}
+
+TEST_P(Conformance, OptionsTogetherAnswerLikeBruteForce) {
+  if (GetParam().scene->is_tiny)
+    for (const std::string& spec : full_product(*GetParam().entry, is_full() ? 20000 : 400))
+      expect_conforms(*GetParam().scene, spec);
+  if (GetParam().scene->is_tiny || is_full())
+    for (const std::string& spec : all_pairs(*GetParam().entry))
+      expect_conforms(*GetParam().scene, spec);
+}
+
+TEST_P(Conformance, ThreadsAndBatchSizesDoNotChangeBits) {
+  const NamedScene& named = *GetParam().scene;
+  const Expected& e = expected_of(named);
+  const auto serial = build(scene_of(named), GetParam().entry->name);
+  BuildContext two;
+  two.executor = Executor::with_threads(2);
+  const auto parallel = build(scene_of(named), GetParam().entry->name, two);
+  EXPECT_EQ(serial->tree_hash(), parallel->tree_hash());
+  EXPECT_EQ(first_difference(ask(*parallel, e.set, two), e.answers), "");
+  EXPECT_EQ(first_difference(ask(*serial, e.set, {}, 7), e.answers), "");
+}
+
+TEST_P(Conformance, CountingWorkDoesNotChangeBits) {
+  const NamedScene& named = *GetParam().scene;
+  const Expected& e = expected_of(named);
+  const auto accelerator = build(scene_of(named), GetParam().entry->name);
+  BatchContext counted;
+  counted.count_work = true;
+  std::vector<Hit> hits(e.set.rays.size());
+  const BatchReport report = accelerator->closest_hit(e.set.batch(false), hits, counted);
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    ASSERT_TRUE(have_same_bits(hits[i], e.answers.closest[0][i])) << i;
+  EXPECT_EQ(report.counters.primitives > 0, scene_of(named)->size() > 0);
+}
+
+TEST_P(Conformance, AWalkByCursorsListsExactlyAllHits) {
+  const NamedScene& named = *GetParam().scene;
+  const Expected& e = expected_of(named);
+  const auto accelerator = build(scene_of(named), GetParam().entry->name);
+  RaySet set = e.set;
+  const AllHits& all = e.answers.all[0];
+  std::size_t left = std::min(set.rays.size(), kWalkedRays);
+  set.rays.resize(left), set.after.resize(left);
+  std::vector<std::int64_t> at(all.splits.begin(), all.splits.end() - 1);
+  for (int step = 0; left > 0 && step < 5000; ++step) {
+    RayBatch batch = set.batch(false);
+    batch.after = set.after;
+    if (step == 0) batch.after = {};
+    std::vector<Hit> hits(set.rays.size());
+    accelerator->closest_hit(batch, hits);
+    left = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const bool more = at[i] < all.splits[i + 1];
+      ASSERT_EQ(hits[i].is_hit(), more) << "ray " << i << " step " << step;
+      if (!more) continue;
+      ASSERT_TRUE(have_same_bits(hits[i], all.hits[static_cast<std::size_t>(at[i])])) << i;
+      set.after[i] = {hits[i].t, hits[i].id};
+      ++at[i], ++left;
+    }
+    if (named.name == "identical" && step > 20) break;  // a thousand equal steps say no more
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalogue, Conformance, testing::ValuesIn(all_params()),
+                         [](const testing::TestParamInfo<Param>& i) {
+                           return std::string(i.param.entry->name) + "_" + i.param.scene->name;
+                         });
+
+}  // namespace
+}  // namespace strahl::test

@@ -1,0 +1,31 @@
+// tests/conformance/oracle.h - all answers of one accelerator, and their bitwise comparison.
+#pragma once
+
+#include <string>
+#include <tests/conformance/rays.h>
+
+#include <strahl/catalog/catalog.h>
+
+namespace strahl::test {
+
+/// Every answer to a ray set, with and without filters.
+struct Answers {
+  std::vector<Hit> closest[2];
+  std::vector<std::uint8_t> any[2];
+  std::vector<std::uint32_t> counts[2];
+  AllHits all[2];
+  std::vector<Side> sides;
+  std::uint64_t invalid_rays = 0;
+};
+
+/// @param span_size 0: one batch; else the rays are sent in batches of that many
+Answers ask(const Accelerator& accelerator, const RaySet& set, const BuildContext& context,
+            std::size_t span_size = 0);
+
+/// Empty when all answers have the same bits; else what differs first.
+std::string first_difference(const Answers& got, const Answers& expected);
+
+/// The bits of a hit that are part of the contract.
+bool have_same_bits(const Hit& a, const Hit& b);
+
+}  // namespace strahl::test
