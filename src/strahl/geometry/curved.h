@@ -4,6 +4,12 @@
 //   slab test, planes at (p - org) * (1 / dir), and its t is clamped into that slab interval. As
 //   rounding is monotone, the same test of any enclosing box then encloses t, so no conservative
 //   filter can disagree with the formula. Two roots that clamp to the same t are a tangent: none.
+//   A caller does: box = bounds(x); hits = tie_to_box(intersect(x, org, dir), org, dir, box).
+// Far origins: org + t*dir is evaluated relative to the primitive with exact differences and
+//   products ([Dekker1971] two-sum and split product, no FMA), so only the rounding of t remains.
+// Range: coordinates 0 or 2^-240..2^240 (see math/margin.h); nothing then overflows, and what
+//   underflows is far below the rounding of what it is added to.
+// Thread safety: pure functions. Needs round-to-nearest (see base/fp_env.h).
 #pragma once
 
 #include <array>
@@ -30,7 +36,39 @@ struct CurvedHits {
 Interval canonical_slab(const Vec3d& org, const Vec3d& dir, const Aabb& box);
 
 /// Applies the rule above: drops hits when the line misses the box, clamps t, drops equal pairs,
-/// non-finite t, and turns -0 into +0.
-CurvedHits tie_to_box(CurvedHits hits, const Vec3d& org, const Vec3d& dir, const Aabb& box);
+/// non-finite t, and turns -0 into +0. Idempotent.
+CurvedHits tie_to_box(const CurvedHits& hits, const Vec3d& org, const Vec3d& dir, const Aabb& box);
+
+/// The point of a line at parameter t + dt (unevaluated), as its offset high + low from a reference
+/// point. Error below 2^-100 of the distances from the ray's origin to both, low below ulp(high).
+struct LinePoint {
+  double t = 0.0, dt = 0.0;
+  Vec3d high, low;
+};
+
+/// org + t*dir - reference.
+LinePoint point_at(const Vec3d& org, const Vec3d& dir, double t, const Vec3d& reference);
+
+/// The point of the line nearest reference + shift, as its offset from reference. The second of its
+/// two steps leaves it within a few ulps of |offset - shift| of the foot of the perpendicular, for
+/// origins up to 2^50 times as far away.
+LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& reference,
+                        const Vec3d& shift);
+
+/// v of length 1 without overflow or underflow; NaNs for the zero vector.
+Vec3d unit(const Vec3d& v);
+
+/// 0 or of a magnitude that exact steps can take, 2^-240..2^240; false for NaN and infinity.
+bool is_valid_coordinate(double v);
+bool is_valid_coordinate(const Vec3d& v);
+
+/// The smallest interval of doubles that holds center -+ half_extent, per axis.
+Aabb box_around(const Vec3d& center, const Vec3d& half_extent);
+
+/// The exact product as high + low, without FMA. Requires: no overflow, |a * b| > 2^-969 or 0.
+struct SplitProduct {
+  double high, low;
+};
+SplitProduct split_product(double a, double b);
 
 }  // namespace strahl

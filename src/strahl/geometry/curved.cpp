@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+
+#include <strahl/geometry/curved.h>
+#include <strahl/math/expansion.h>
+
+namespace strahl {
+namespace {
+
+/// v as the sum of two doubles of at most 26 bits each, so that their products are exact.
+SplitProduct split(double v) {
+  constexpr double kSplitter = 0x1p27 + 1.0;
+  const double scaled = kSplitter * v;
+  const double high = scaled - (scaled - v);
+  return {high, v - high};
+}
+
+/// (high + low) += a * b, renormalised.
+void add_product(double& high, double& low, double a, double b) {
+  const SplitProduct product = split_product(a, b);
+  const TwoTerms sum = two_sum(high, product.high);
+  const TwoTerms result = two_sum(sum.high, sum.low + (low + product.low));
+  high = result.high, low = result.low;
+}
+
+void advance(LinePoint& p, const Vec3d& dir, double dt) {
+  for (int axis = 0; axis < 3; ++axis) add_product(p.high[axis], p.low[axis], dt, dir[axis]);
+}
+
+double rounded_down(double a, double b) {
+  const TwoTerms sum = two_sum(a, b);
+  return sum.low < 0.0 ? std::nextafter(sum.high, -Aabb::kInf) : sum.high;
+}
+
+}  // namespace
+
+Interval canonical_slab(const Vec3d& org, const Vec3d& dir, const Aabb& box) {
+  Interval slab{-Aabb::kInf, Aabb::kInf};
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool negative = dir[axis] < 0.0;
+    const double inv = dir[axis] == 0.0 ? Aabb::kInf : 1.0 / dir[axis];
+    const double first = ((negative ? box.hi : box.lo)[axis] - org[axis]) * inv;
+    const double last = ((negative ? box.lo : box.hi)[axis] - org[axis]) * inv;
+    // Written so that a NaN leaves the interval as it is.
+    slab.t_enter = first > slab.t_enter ? first : slab.t_enter;
+    slab.t_exit = last < slab.t_exit ? last : slab.t_exit;
+  }
+  return slab;
+}
+
+CurvedHits tie_to_box(const CurvedHits& hits, const Vec3d& org, const Vec3d& dir, const Aabb& box) {
+  const Interval slab = canonical_slab(org, dir, box);
+  CurvedHits tied;
+  if (!(slab.t_enter <= slab.t_exit)) return tied;
+  for (int i = 0; i < hits.count; ++i) {
+    CurvedHit hit = hits.hit[static_cast<std::size_t>(i)];
+    if (!std::isfinite(hit.t)) continue;
+    hit.t = std::clamp(hit.t, slab.t_enter, slab.t_exit) + 0.0;  // -0 + 0 is +0
+    tied.hit[static_cast<std::size_t>(tied.count++)] = hit;
+  }
+  if (tied.count == 2 && tied.hit[0].t == tied.hit[1].t) tied.count = 0;
+  return tied;
+}
+
+LinePoint point_at(const Vec3d& org, const Vec3d& dir, double t, const Vec3d& reference) {
+  LinePoint p;
+  p.t = t;
+  for (int axis = 0; axis < 3; ++axis) {
+    const TwoTerms d = two_sum(org[axis], -reference[axis]);
+    p.high[axis] = d.high, p.low[axis] = d.low;
+  }
+  advance(p, dir, t);
+  return p;
+}
+
+LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& reference,
+                        const Vec3d& shift) {
+  const double dir2 = dot(dir, dir);
+  const double t = dot((reference - org) + shift, dir) / dir2;
+  LinePoint p = point_at(org, dir, t, reference);
+  // What the rounding of t left along the line.
+  p.dt = dot(shift - p.high, dir) / dir2;
+  advance(p, dir, p.dt);
+  return p;
+}
+
+Vec3d unit(const Vec3d& v) { return normalized(v / norm_max(v)); }
+
+bool is_valid_coordinate(double v) {
+  const double a = std::abs(v);
+  return a == 0.0 || (a >= 0x1p-240 && a <= 0x1p240);
+}
+bool is_valid_coordinate(const Vec3d& v) {
+  return is_valid_coordinate(v.x) && is_valid_coordinate(v.y) && is_valid_coordinate(v.z);
+}
+
+Aabb box_around(const Vec3d& center, const Vec3d& half_extent) {
+  Aabb box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = rounded_down(center[axis], -half_extent[axis]);
+    box.hi[axis] = -rounded_down(-center[axis], -half_extent[axis]);
+  }
+  return box;
+}
+
+SplitProduct split_product(double a, double b) {
+  const SplitProduct x = split(a), y = split(b);
+  const double p = a * b;
+  return {p, ((x.high * y.high - p) + x.high * y.low + x.low * y.high) + x.low * y.low};
+}
+
+}  // namespace strahl
