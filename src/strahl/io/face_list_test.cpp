@@ -31,15 +31,16 @@ TEST(FaceList, TrianglesAloneNeedNoFaceIds) {
 TEST(FaceList, PolygonsAndSkippedFacesAreNumberedInOrder) {
   FaceList faces(square());
   faces.add(Corners{0, 1, 2});
+  faces.add(Corners{0, 2, 3});
   faces.add(Corners{});
   faces.add(Corners{0, 1, 2, 3});
   faces.add(Corners{0, 1});
   faces.add(Corners{1, 2, 3});
   EXPECT_EQ(faces.skipped(), 2u);
   const Geometry geometry = faces.take_geometry();
-  EXPECT_EQ(geometry.face_ids, (Corners{0, 2, 2, 4}));
-  EXPECT_EQ(triangle(geometry, 1), (Corners{0, 1, 2}));
-  EXPECT_EQ(triangle(geometry, 2), (Corners{0, 2, 3}));
+  EXPECT_EQ(geometry.face_ids, (Corners{0, 1, 3, 3, 5}));
+  EXPECT_EQ(triangle(geometry, 2), (Corners{0, 1, 2}));
+  EXPECT_EQ(triangle(geometry, 3), (Corners{0, 2, 3}));
 }
 
 TEST(FaceList, TheMeshKeepsItsMemoryAlive) {

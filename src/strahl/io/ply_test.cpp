@@ -185,6 +185,15 @@ TEST(Ply, ReadsAsciiFacesBeforeVerticesWithExtraProperties) {
   EXPECT_TRUE(scene.warnings.empty());
 }
 
+TEST(Ply, FacesKeepTheOrderOfTheFileAlsoAroundTheVertices) {
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  const SceneData scene =
+      read(header("ascii", faces(1) + xyz(3) + strips) + "3 0 1 2\n" + kCorners + "3 2 1 0\n");
+  ASSERT_EQ(scene.geometries.at(0).size(), 2u);
+  EXPECT_EQ(triangle(scene, 0), (Triangle{0, 1, 2}));
+  EXPECT_EQ(triangle(scene, 1), (Triangle{2, 1, 0}));
+}
+
 TEST(Ply, BodyStartsRightBehindTheLineEndOfTheHeader) {
   for (const std::string ending : {"\n", "\r\n", "\r"}) {
     std::string text;
@@ -326,6 +335,17 @@ TEST(Ply, CountsBeyondTheFileAreErrorsBeforeAnythingIsReserved) {
               std::string::npos)
         << error(text);
   }
+}
+
+TEST(Ply, CountsAreComparedWithTheSmallestSizeOfTheirRows) {
+  Bytes bytes(header("binary_little_endian", xyz(4)));
+  bytes.add(0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f);
+  EXPECT_NE(error(bytes.text()).find("4 rows of element vertex do not fit"), std::string::npos);
+  EXPECT_EQ(error(Bytes(bytes).add(0.f).text()), "no error");
+  const std::string text = header("ascii", xyz(3)) + "0 0 0\n0 0 0\n0 0 0";
+  EXPECT_EQ(error(text), "no error");
+  EXPECT_NE(error(text.substr(0, text.size() - 1)).find("3 rows of element vertex do not fit"),
+            std::string::npos);
 }
 
 TEST(Ply, RowsWithoutPropertiesTakeNoTime) {
