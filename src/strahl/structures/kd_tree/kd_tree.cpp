@@ -1,0 +1,83 @@
+#include <span>
+#include <utility>
+
+#include <strahl/structures/kd_tree/kd_build.h>
+#include <strahl/structures/kd_tree/kd_tree.h>
+
+namespace strahl {
+namespace {
+
+/// Counts leaves and sums up, over all nodes, the chance to be crossed times the work done there.
+struct Survey {
+  const KdArrays& tree;
+  SahCost cost;
+  double root_area;
+  BuildReport report;
+
+  void visit(std::uint32_t index, const Aabb& cell, std::uint64_t depth) {
+    const KdNode& node = tree.nodes[index];
+    const double share = sah_share(cell.half_area(), root_area);
+    if (node.is_leaf()) {
+      ++report.leaves;
+      report.empty_leaves += node.count() == 0;
+      report.references += node.count();
+      report.depth = std::max(report.depth, depth);
+      report.sah_cost += share * sah_leaf_cost(cost, node.count());
+      return;
+    }
+    report.sah_cost += share * cost.traverse;
+    Aabb half = cell;
+    half.hi[node.axis()] = node.plane();
+    visit(index + 1, half, depth + 1);
+    half = cell;
+    half.lo[node.axis()] = node.plane();
+    visit(node.right(), half, depth + 1);
+  }
+};
+
+}  // namespace
+
+OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
+  using O = KdTreeOptions;
+  return {
+      option("split", &O::split,
+             {{"auto", KdSplit::automatic},
+              {"sah_sweep", KdSplit::sah_sweep},
+              {"sah_binned", KdSplit::sah_binned}},
+             "candidate planes: every end of a primitive, or borders of bins; auto sweeps nodes of "
+             "up to 500,000 primitives"),
+      option("bins", &O::bins, 2, 1024, "bins per axis where planes are binned"),
+      option("clip", &O::clip, "bound the part of a primitive inside the cell, not all of it"),
+      option("traverse_cost", &O::traverse_cost, 0.001, 1000.0, "cost of a traversal step"),
+      option("intersect_cost", &O::intersect_cost, 0.001, 1000.0, "cost of a primitive test"),
+      option("empty_bonus", &O::empty_bonus, 0.0, 1.0,
+             "part of the cost forgiven to planes that cut off empty space"),
+      option("max_leaf", &O::max_leaf, 1, 1000000, "primitives that are never divided"),
+      option("max_depth", &O::max_depth, 0, KdTree::kMaxDepth,
+             "depth of leaves at most; 0: 8 + 1.3 log2 of the primitives"),
+      option("bad_splits", &O::bad_splits, 0, KdTree::kMaxDepth,
+             "planes on a path that may cost more than a leaf"),
+  };
+}
+
+KdTree::KdTree(const PrimitiveSource& source, const Options& options, const BuildContext& context)
+    : cost_{options.traverse_cost, options.intersect_cost} {
+  std::vector<PrimRef> refs = make_prim_refs(source, context);
+  for (const PrimRef& ref : refs) root_box_.extend(ref.box);
+  max_depth_ = kd_depth_limit(options, refs.size());
+  tree_ = build_kd_tree(source, std::move(refs), root_box_, options, context);
+  Survey survey{tree_, cost_, root_box_.half_area(), {}};
+  survey.visit(0, root_box_, 0);
+  report_ = survey.report;
+  report_.sah_cost /= cost_.traverse;
+  report_.nodes = tree_.nodes.size();
+  report_.bytes =
+      tree_.nodes.capacity() * sizeof(KdNode) + tree_.references.capacity() * sizeof(std::uint32_t);
+}
+
+void KdTree::hash_into(Hash64& hash) const {
+  for (const KdNode& node : tree_.nodes) node.hash_into(hash);
+  hash.add(std::span<const std::uint32_t>(tree_.references));
+}
+
+}  // namespace strahl

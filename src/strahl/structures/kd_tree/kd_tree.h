@@ -1,0 +1,106 @@
+// structures/kd_tree/kd_tree.h - space divided by axis-perpendicular planes placed by the surface
+// area heuristic.
+//
+// Source: [Kaplan1985], [MacDonaldBooth1990]; sweep and splicing after [WaldHavran2006].
+// Layout: 8-byte nodes, depth first (kd_node.h); cells are implicit.
+// Invariants: every split plane lies strictly inside its cell, so cells tile the root box; every
+//   point of a primitive lies in some closed leaf cell that refers to the primitive.
+// Why no hit is lost: by the second invariant the point of a hit lies in a closed cell that refers
+//   to its primitive. At each plane both sides are visited unless the plane's parameter, with the
+//   margin for its rounding, says that the side is certainly left before or entered after what is
+//   visited; so every closed cell that holds a point of the ray is visited, those on both sides of
+//   a plane that the ray touches or lies in (a NaN parameter) included.
+// Thread safety: const methods are safe from any number of threads.
+#pragma once
+
+#include <algorithm>
+
+#include <strahl/base/hash.h>
+#include <strahl/base/options.h>
+#include <strahl/build/build_report.h>
+#include <strahl/build/prim_ref.h>
+#include <strahl/build/sah.h>
+#include <strahl/structures/kd_tree/kd_node.h>
+#include <strahl/traverse/walk.h>
+
+namespace strahl {
+
+enum class KdSplit { automatic, sah_sweep, sah_binned };
+
+/// Defaults of the costs are measured, see README.md.
+struct KdTreeOptions {
+  KdSplit split = KdSplit::automatic;
+  int bins = 64;
+  bool clip = true;
+  double traverse_cost = 1.0;
+  double intersect_cost = 2.0;
+  double empty_bonus = 0.2;
+  int max_leaf = 1;
+  int max_depth = 0;
+  int bad_splits = 3;
+};
+
+OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*);
+
+/// O(log n) expected per ray. 8 bytes per node, 4 per reference of a leaf with several.
+/// Throws Error{resource} above the memory limit or beyond 2^30 nodes.
+class KdTree {
+ public:
+  using Options = KdTreeOptions;
+  static constexpr const char* kName = "kd_tree";
+  static constexpr const char* kTitle = "space divided by axis-perpendicular planes";
+  static constexpr bool kRefersOnce = false;
+  static constexpr int kMaxChildren = 2;
+  static constexpr int kMaxDepth = 64;
+
+  KdTree(const PrimitiveSource& source, const Options& options, const BuildContext& context);
+
+  template <class Prims, class Q, class C>
+  void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
+    if (!root_box_.is_empty()) walk(*this, prims, ray, query, counters);
+  }
+
+  NodeVisit enter(const PreparedRay& ray) const {
+    return {0, clip_to_box(ray, root_box_.lo, root_box_.hi, {ray.t_enter, ray.t_exit})};
+  }
+  bool is_leaf(std::uint32_t node) const { return tree_.nodes[node].is_leaf(); }
+  std::span<const std::uint32_t> references(std::uint32_t node) const {
+    return tree_.nodes[node].references(tree_.references);
+  }
+  /// The near child is the one on the side the ray comes from. Comparisons hold for NaN.
+  template <class C>
+  int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* children, C&) const {
+    const KdNode& node = tree_.nodes[at.node];
+    const int axis = node.axis();
+    // Parameters below 0 may keep the wrong side of the margin: intervals begin at 0.
+    const double first = ray.plane_first(axis, node.plane()) * (1.0 - kPlaneMargin);
+    const double last = ray.plane_last(axis, node.plane()) * (1.0 + kPlaneMargin);
+    const bool from_above = ray.negative[axis];
+    int count = 0;
+    if (!(at.span.t_enter > last)) {
+      const double t_exit = last < at.span.t_exit ? last : at.span.t_exit;
+      children[count++] = {from_above ? node.right() : at.node + 1, {at.span.t_enter, t_exit}};
+    }
+    if (!(at.span.t_exit < first)) {
+      const double t_enter = first > at.span.t_enter ? first : at.span.t_enter;
+      children[count++] = {from_above ? at.node + 1 : node.right(), {t_enter, at.span.t_exit}};
+    }
+    return count;
+  }
+
+  const BuildReport& report() const { return report_; }
+  /// Throws std::logic_error naming the first broken invariant. O(references * log n).
+  void validate(const PrimitiveSource& source) const;
+  void hash_into(Hash64& hash) const;
+
+ private:
+  friend class KdChecker;
+
+  KdArrays tree_;
+  Aabb root_box_;
+  SahCost cost_;
+  int max_depth_ = 0;
+  BuildReport report_;
+};
+
+}  // namespace strahl

@@ -1,0 +1,141 @@
+// structures/kd_tree/kd_validate.cpp - the invariants of a kd-tree, executable.
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <strahl/structures/kd_tree/kd_tree.h>
+
+namespace strahl {
+namespace {
+
+void demand(bool holds, const char* broken) {
+  if (!holds) throw std::logic_error(std::string("kd_tree: ") + broken);
+}
+
+/// The cell without a rim in which bounds of clipped primitives may be off by rounding; axes along
+/// which the cell is flat stay as they are.
+Aabb inner_part(const Aabb& cell, double largest) {
+  const double rim = 1024 * 0x1p-53 * largest;
+  Aabb core = cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (cell.lo[axis] == cell.hi[axis]) continue;
+    core.lo[axis] += rim, core.hi[axis] -= rim;
+  }
+  return core;
+}
+
+/// Whether the box meets the interior of the cell, the whole cell along axes where it is flat.
+bool meets_interior(const Aabb& cell, const Aabb& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_flat = cell.lo[axis] == cell.hi[axis];
+    const bool meets = is_flat ? box.lo[axis] <= cell.hi[axis] && cell.lo[axis] <= box.hi[axis]
+                               : box.lo[axis] < cell.hi[axis] && cell.lo[axis] < box.hi[axis];
+    if (!meets) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Walks the tree with the primitives that may lie in each cell.
+class KdChecker {
+ public:
+  KdChecker(const KdTree& tree, const PrimitiveSource& source)
+      : tree_(tree.tree_),
+        max_depth_(tree.max_depth_),
+        cost_(tree.cost_),
+        source_(source),
+        largest_(tree.root_box_.is_empty()
+                     ? 0.0
+                     : std::max(norm_max(tree.root_box_.lo), norm_max(tree.root_box_.hi))) {}
+
+  void run(const KdTree& tree) {
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t i = 0; i < source_.size(); ++i)
+      if (!source_.bounds(i).is_empty()) all.push_back(i);
+    is_referenced_.assign(source_.size(), false);
+    const double cost = visit(tree.root_box_, all, 0);
+    demand(next_node_ == tree_.nodes.size(), "nodes beyond the last leaf");
+    demand(next_reference_ == tree_.references.size(), "references beyond the last leaf");
+    for (const std::uint32_t i : all) demand(is_referenced_[i], "a primitive is in no leaf");
+    const BuildReport& report = tree.report();
+    demand(leaves_ == report.leaves && empty_ == report.empty_leaves, "report: leaves");
+    demand(total_references_ == report.references, "report: references");
+    demand(deepest_ == report.depth, "report: depth");
+    demand(next_node_ == report.nodes, "report: nodes");
+    const double reported = report.sah_cost * cost_.traverse;
+    demand(std::abs(cost - reported) <= 1e-6 * cost, "report: SAH cost");
+  }
+
+ private:
+  /// Checks the subtree that begins at next_node_; returns its cost per line that crosses it.
+  double visit(const Aabb& cell, const std::vector<std::uint32_t>& candidates, int depth) {
+    demand(next_node_ < tree_.nodes.size(), "a child beyond the last node");
+    const KdNode& node = tree_.nodes[next_node_++];
+    demand(depth <= max_depth_, "a node is too deep");
+    if (node.is_leaf()) return visit_leaf(node, cell, candidates, depth);
+    const int axis = node.axis();
+    demand(cell.lo[axis] < node.plane() && node.plane() < cell.hi[axis],
+           "a split plane is not strictly inside its cell");
+    Aabb left = cell, right = cell;
+    left.hi[axis] = right.lo[axis] = node.plane();
+    const double left_cost = visit(left, inside(left, candidates), depth + 1);
+    demand(next_node_ == node.right(), "a right child is not where its parent says");
+    const double right_cost = visit(right, inside(right, candidates), depth + 1);
+    const double whole = cell.half_area();
+    return cost_.traverse + sah_share(left.half_area(), whole) * left_cost +
+           sah_share(right.half_area(), whole) * right_cost;
+  }
+
+  double visit_leaf(const KdNode& node, const Aabb& cell,
+                    const std::vector<std::uint32_t>& candidates, int depth) {
+    ++leaves_;
+    empty_ += node.count() == 0;
+    total_references_ += node.count();
+    deepest_ = std::max(deepest_, static_cast<std::uint64_t>(depth));
+    if (node.count() > 1) {
+      demand(node.first() == next_reference_, "leaves do not share out the references in order");
+      next_reference_ += node.count();
+      demand(next_reference_ <= tree_.references.size(), "a leaf's references are out of range");
+    }
+    check_references(node.references(tree_.references), cell, candidates);
+    return sah_leaf_cost(cost_, node.count());
+  }
+
+  void check_references(std::span<const std::uint32_t> references, const Aabb& cell,
+                        const std::vector<std::uint32_t>& candidates) {
+    for (std::size_t i = 0; i < references.size(); ++i) {
+      demand(references[i] < source_.size(), "a reference is out of range");
+      demand(i == 0 || references[i - 1] < references[i], "references of a leaf do not ascend");
+      const Aabb box = source_.bounds(references[i]);
+      demand(!box.is_empty() && box.overlaps(cell), "a leaf refers to what is not in it");
+      is_referenced_[references[i]] = true;
+    }
+    const Aabb core = inner_part(cell, largest_);
+    if (core.is_empty()) return;
+    for (const std::uint32_t i : candidates) {
+      if (std::binary_search(references.begin(), references.end(), i)) continue;
+      demand(source_.clip(i, core).is_empty(), "a primitive inside a leaf is not referred to");
+    }
+  }
+
+  std::vector<std::uint32_t> inside(const Aabb& cell, const std::vector<std::uint32_t>& from) {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t i : from)
+      if (meets_interior(cell, source_.bounds(i))) found.push_back(i);
+    return found;
+  }
+
+  const KdArrays& tree_;
+  int max_depth_;
+  SahCost cost_;
+  const PrimitiveSource& source_;
+  double largest_;
+  std::vector<bool> is_referenced_;
+  std::size_t next_node_ = 0, next_reference_ = 0;
+  std::uint64_t leaves_ = 0, empty_ = 0, total_references_ = 0, deepest_ = 0;
+};
+
+void KdTree::validate(const PrimitiveSource& source) const { KdChecker(*this, source).run(*this); }
+
+}  // namespace strahl
