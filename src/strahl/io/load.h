@@ -1,0 +1,22 @@
+// io/load.h - a scene from what a user names: a file of any known format or a generator.
+//
+// Thread safety: functions without state.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <strahl/geometry/scene.h>
+
+namespace strahl {
+
+/// The scene that `scene` names: "gen:NAME[:SIZE[,key=value...]]" (io/generators.h), else a file
+/// whose format its extension tells, in any case.
+/// Throws Error{bad_input} naming the file: unknown extension, cannot be opened, malformed; those
+/// of generate_scene().
+SceneData load_scene_data(const std::string& scene);
+
+/// The known extensions, lower case, with their dot, sorted.
+std::vector<std::string> supported_extensions();
+
+}  // namespace strahl
