@@ -1,0 +1,61 @@
+// build/object_split.h - how a set of primitives is divided in two, and the two SAH splitters.
+//
+// A splitter orders or sorts its primitives in place: left part first. Both choose among all three
+// axes by the surface area heuristic; ties go to the lower cost, then the lower axis, then the
+// lower position, so results depend on the input only.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <strahl/build/prim_ref.h>
+#include <strahl/build/sah.h>
+
+namespace strahl {
+
+/// Primitives [begin, begin + size()) of the builder's array and their box.
+struct ObjectSet {
+  std::size_t begin = 0, end = 0;
+  Aabb box;
+  std::size_t size() const { return end - begin; }
+};
+
+/// A division found: cost of node and two leaves, infinite when there is none.
+struct ObjectSplit {
+  double cost = Aabb::kInf;
+  int axis = 0;
+  std::size_t position = 0;  ///< meaning is the splitter's: bin or rank
+  bool is_found() const { return cost < Aabb::kInf; }
+};
+
+/// Finds and carries out divisions. Disjoint sets may be worked on from several threads at once.
+class ObjectSplitter {
+ public:
+  virtual ~ObjectSplitter() = default;
+  /// The cheapest division of a set of at least two.
+  virtual ObjectSplit find(const ObjectSet& set) const = 0;
+  /// Halves by rank of the centres on the longest axis of their box; always found.
+  virtual ObjectSplit find_median(const ObjectSet& set) const = 0;
+  /// Carries a division out and returns both parts with their boxes.
+  virtual std::pair<ObjectSet, ObjectSet> divide(const ObjectSet& set,
+                                                 const ObjectSplit& split) = 0;
+  /// References of a set, in no particular order, appended.
+  virtual void list(const ObjectSet& set, std::vector<std::uint32_t>& references) const = 0;
+};
+
+/// Binned SAH [Wald2007]: `bins` equal bins over the centres per axis. O(n) per division, sorts the
+/// references in place. `refs` must outlive it.
+std::unique_ptr<ObjectSplitter> make_binned_splitter(std::span<PrimRef> refs, int bins,
+                                                     const SahCost& cost);
+
+/// Exact SAH sweep over the sorted centres of all axes [GoldsmithSalmon1987, MuellerFellner1999]:
+/// sorted once, kept sorted by stable partition, O(n log n) in all. `refs` must outlive it.
+std::unique_ptr<ObjectSplitter> make_sweep_splitter(std::span<const PrimRef> refs,
+                                                    const SahCost& cost);
+
+/// Twice the centre of a box: what both splitters sort by, without a rounding.
+inline Vec3d doubled_center(const Aabb& box) { return box.lo + box.hi; }
+
+}  // namespace strahl
