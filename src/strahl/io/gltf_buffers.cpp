@@ -76,7 +76,7 @@ OwnedBytes map_sibling(const std::filesystem::path& folder, const JsonValue& uri
     FileBytes file = map_file(path);
     return {file.bytes, std::move(file.owner)};
   } catch (const Error& e) {
-    uri.fail("cannot read '" + printable(uri.string()) + "': " + e.reason());
+    uri.fail("file '" + printable(uri.string()) + "': " + e.reason());
   }
 }
 

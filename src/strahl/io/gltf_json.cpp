@@ -55,7 +55,7 @@ json parse_json(std::string_view text, const std::string& file, std::size_t firs
     throw Error(ErrorCode::bad_input, "not JSON: " + parser_reason(e.what()), file,
                 "byte " + std::to_string(first_byte + e.byte));
   } catch (const json::exception& e) {
-    throw Error(ErrorCode::bad_input, "not usable JSON: " + printable(e.what()), file);
+    throw Error(ErrorCode::bad_input, "not usable JSON: " + printable(e.what()), file, "/");
   }
 }
 
