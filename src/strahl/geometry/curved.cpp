@@ -84,8 +84,6 @@ LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& referen
   return p;
 }
 
-Vec3d unit(const Vec3d& v) { return normalized(v / norm_max(v)); }
-
 bool is_valid_coordinate(double v) {
   const double a = std::abs(v);
   return a == 0.0 || (a >= 0x1p-240 && a <= 0x1p240);

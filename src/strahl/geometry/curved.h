@@ -55,9 +55,6 @@ LinePoint point_at(const Vec3d& org, const Vec3d& dir, double t, const Vec3d& re
 LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& reference,
                         const Vec3d& shift);
 
-/// v of length 1 without overflow or underflow; NaNs for the zero vector.
-Vec3d unit(const Vec3d& v);
-
 /// 0 or of a magnitude that exact steps can take, 2^-240..2^240; false for NaN and infinity.
 bool is_valid_coordinate(double v);
 bool is_valid_coordinate(const Vec3d& v);

@@ -85,12 +85,7 @@ Vec3d unit_normal(const TriangleVertices& tri) {
     const auto e = exact_normal(tri);
     n = {rounded(e.x), rounded(e.y), rounded(e.z)};
   }
-  int exponent = 0;  // a power of two first, so that squares stay in range
-  std::frexp(norm_max(n), &exponent);
-  const Vec3d scaled{std::ldexp(n.x, -exponent), std::ldexp(n.y, -exponent),
-                     std::ldexp(n.z, -exponent)};
-  const Vec3d unit = scaled / std::sqrt(dot(scaled, scaled));
-  return {unit.x + 0.0, unit.y + 0.0, unit.z + 0.0};
+  return unit(n) + Vec3d{};  // no -0
 }
 
 /// Exact orientation of (p, q, r) after dropping `axis`.

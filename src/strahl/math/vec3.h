@@ -80,6 +80,8 @@ template <class T>
 Vec3<T> normalized(const Vec3<T>& a) {
   return a / length(a);
 }
+/// v scaled to length 1 without overflow or underflow; NaNs for the zero vector.
+inline Vec3<double> unit(const Vec3<double>& v);
 /// Sum of the magnitudes.
 template <class T>
 T norm1(const Vec3<T>& a) {
@@ -91,6 +93,7 @@ T norm_max(const Vec3<T>& a) {
   const T xy = std::abs(a.x) > std::abs(a.y) ? std::abs(a.x) : std::abs(a.y);
   return xy > std::abs(a.z) ? xy : std::abs(a.z);
 }
+inline Vec3<double> unit(const Vec3<double>& v) { return normalized(v / norm_max(v)); }
 template <class T>
 bool is_finite(const Vec3<T>& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);

@@ -63,7 +63,9 @@ class SceneVisitor {
   }
   template <class Curved>
   static CurvedHits curved_hits(const Curved& primitive, const PreparedRay& ray) {
-    return tie_to_box(intersect(primitive, ray.org, ray.dir), ray.org, ray.dir, bounds(primitive));
+    const CurvedHits hits = intersect(primitive, ray.org, ray.dir);
+    if (hits.count == 0) return hits;
+    return tie_to_box(hits, ray.org, ray.dir, bounds(primitive));
   }
   template <Query Q>
   static bool offer_all(const CurvedHits& hits, Hit hit, Q& query) {
