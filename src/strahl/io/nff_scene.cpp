@@ -75,8 +75,9 @@ void append_geometry(NffScene& scene, const Geometry& geometry, const Affine& to
     throw Error(ErrorCode::usage, "spheres and cones under an instance cannot be written as NFF");
   }
   for (std::size_t i = 0; i < geometry.size(); ++i) {
-    const std::uint32_t fill = geometry.materials.empty() ? 0 : geometry.materials[i];
-    if (fill >= scene.fills.size()) throw Error(ErrorCode::bad_input, "no such material");
+    scene.current_fill = geometry.materials.empty() ? 0 : geometry.materials[i];
+    if (scene.current_fill >= scene.fills.size())
+      throw Error(ErrorCode::bad_input, "no such material");
     if (geometry.kind == PrimitiveKind::triangle) {
       const TriangleVertices t = geometry.mesh[i];
       std::array<Vec3d, 3> corners{t.a, t.b, t.c};
@@ -89,7 +90,6 @@ void append_geometry(NffScene& scene, const Geometry& geometry, const Affine& to
     } else {
       scene.add_cone(geometry.cones[i]);
     }
-    scene.objects.back().fill = fill;
   }
 }
 
@@ -111,8 +111,11 @@ void round_numbers(View& view) {
 
 }  // namespace
 
-void NffScene::add_object(NffKind kind) {
-  objects.push_back({kind, static_cast<std::uint32_t>(fills.size() - 1)});
+void NffScene::add_object(NffKind kind) { objects.push_back({kind, current_fill}); }
+
+void NffScene::add_fill(const Material& fill) {
+  current_fill = static_cast<std::uint32_t>(fills.size());
+  fills.push_back(fill);
 }
 
 void NffScene::add_polygon(std::span<const Vec3d> corners) {

@@ -46,8 +46,10 @@ struct NffScene {
   std::vector<Cone> cones;
   std::vector<NffObject> objects;
 
-  /// Starts a fill: what is added from now on has it. There must be one before the first object.
-  void add_fill(const Material& fill) { fills.push_back(fill); }
+  std::uint32_t current_fill = 0;  ///< what the next object gets
+
+  /// A new fill for what is added from now on. There must be one before the first object.
+  void add_fill(const Material& fill);
   void add_polygon(std::span<const Vec3d> corners);
   void add_patch(std::span<const Vec3d> corners, std::span<const Vec3d> corner_normals);
   void add_sphere(const Vec3d& center, double radius);
@@ -57,9 +59,11 @@ struct NffScene {
   void add_object(NffKind kind);
 };
 
-/// The same scene as triangles (geometry 0, face_ids number the polygons and patches in file
-/// order), spheres (1) and cones (2); kinds that do not occur are left out. Materials are the
-/// fills. O(corners) for convex polygons. Throws Error{resource} above 2^32 - 1 corners.
+/// The same scene as triangles (geometry 0), spheres (1) and cones (2); kinds that do not occur are
+/// left out. face_ids number the polygons and patches in file order and are left out if all are
+/// triangles. Materials are the fills. This is what read_nff() makes of the scene's file, except
+/// that it has a material for each time a fill is written.
+/// O(corners) for convex polygons. Throws Error{resource} above 2^32 - 2 corners.
 SceneData to_scene_data(const NffScene& scene);
 
 /// Any scene as NFF objects: triangles in world space, one polygon each, then spheres and cones.

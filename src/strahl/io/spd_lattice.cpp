@@ -1,4 +1,5 @@
 // io/spd_lattice.cpp - SPD "lattice": balls at grid points, bars between neighbours.
+#include <cstdint>
 #include <utility>
 
 #include <strahl/io/spd.h>
@@ -17,19 +18,27 @@ struct Lattice {
     return {i / n, j / n, k / n};
   }
 
+  // Fills 0, 1, 2 are those of bars along x, y, z, fill 3 that of the balls.
+  void add_fills() {
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3d color{0.1, 0.1, 0.1};
+      color[axis] = 0.9;
+      scene.add_fill({color, 0.99, 0.0, spd::kDull, 0.0, 0.0});
+    }
+    scene.add_fill({{0.9, 0.9, 0.9}, 0.5, 0.5, spd::kGlossy, 0.0, 0.0});
+  }
+
   // The bar to the next node along an axis, from just inside one ball to just inside the other.
   void add_bar(Vec3d from, Vec3d to, int axis) {
-    Vec3d color{0.1, 0.1, 0.1};
-    color[axis] = 0.9;
-    scene.add_fill({color, 0.99, 0.0, spd::kDull, 0.0, 0.0});
     from[axis] += 0.495 * ball_radius;
     to[axis] -= 0.495 * ball_radius;
+    scene.current_fill = static_cast<std::uint32_t>(axis);
     scene.add_cone({from, bar_radius, to, bar_radius});
   }
 
   void add_node(int i, int j, int k) {
     const Vec3d here = node(i, j, k);
-    scene.add_fill({{0.9, 0.9, 0.9}, 0.5, 0.5, spd::kGlossy, 0.0, 0.0});
+    scene.current_fill = 3;
     scene.add_sphere(here, ball_radius);
     if (i < size) add_bar(here, node(i + 1, j, k), 0);
     if (j < size) add_bar(here, node(i, j + 1, k), 1);
@@ -50,6 +59,7 @@ NffScene spd_lattice(int size) {
                   {0.5, 0.5, 2},
                   {0.5, 0.5, -1}}),
       size, 1.0 / (4.0 * size), 1.0 / (16.0 * size)};
+  lattice.add_fills();
   for (int i = 0; i <= size; ++i) {
     for (int j = 0; j <= size; ++j) {
       for (int k = 0; k <= size; ++k) lattice.add_node(i, j, k);

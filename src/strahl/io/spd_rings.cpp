@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include <strahl/io/spd.h>
 #include <strahl/io/spd_parts.h>
@@ -32,11 +33,14 @@ std::array<Ring, 6> make_rings() {
   return rings;
 }
 
-void add_object(NffScene& scene, const std::array<Ring, 6>& rings, const Vec3d& center) {
-  constexpr std::array<Vec3d, 6> kColors{Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1},
-                                         {0, 1, 1},      {1, 0, 1}, {1, 1, 0}};
+constexpr std::array<Vec3d, 6> kColors{Vec3d{1, 0, 0}, {0, 1, 0}, {0, 0, 1},
+                                       {0, 1, 1},      {1, 0, 1}, {1, 1, 0}};
+
+// The fills of the rings are those from first_fill on.
+void add_object(NffScene& scene, const std::array<Ring, 6>& rings, std::uint32_t first_fill,
+                const Vec3d& center) {
   for (std::size_t r = 0; r < 6; ++r) {
-    scene.add_fill({kColors[r], 0.5, 0.2, spd::kGlossy, 0.0, 0.0});
+    scene.current_fill = first_fill + static_cast<std::uint32_t>(r);
     for (std::size_t k = 0; k < 5; ++k) {
       const Vec3d here = rings[r][k] + center, previous = rings[r][(k + 4) % 5] + center;
       scene.add_cone({here, kTubeRadius, previous, kTubeRadius});
@@ -63,11 +67,15 @@ NffScene spd_rings(int size) {
   NffScene scene = spd::stage(eye, eye + Vec3d{0, 1, 0}, {0, 0, 1}, 45.0, 1.0,
                               {{3, -spread, 3}, {-4, -spread, 1}, {2, -spread, -4}});
   add_backdrop(scene, eye, spread * (size + 1));
+  const auto first_fill = static_cast<std::uint32_t>(scene.fills.size());
+  for (const Vec3d& color : kColors) {
+    scene.add_fill({color, 0.5, 0.2, spd::kGlossy, 0.0, 0.0});
+  }
   const std::array<Ring, 6> rings = make_rings();
   for (int layer = 0; layer < size; ++layer) {
     for (int z = 0; z <= layer; ++z) {
       for (int x = 0; x <= layer; ++x) {
-        add_object(scene, rings,
+        add_object(scene, rings, first_fill,
                    {static_cast<double>(2 * x - layer), spread * (layer + 1),
                     static_cast<double>(2 * z - layer)});
       }
