@@ -90,7 +90,7 @@ TEST(Gltf, GivesAPrimitiveItsMaterialsBaseColour) {
 TEST(Gltf, DropsSingularInstancesButKeepsMirroredOnesAndNumbers) {
   GltfFile file = one_triangle();
   file.root["scenes"] = {{{"nodes", {0, 1, 2, 3}}}};
-  file.root["nodes"] = {{{"mesh", 0}, {"scale", {1, 1, 1e-12}}},
+  file.root["nodes"] = {{{"mesh", 0}, {"scale", {1, 1, 0}}},
                         {{"mesh", 0}, {"scale", {-1, 1, 1}}},
                         {{"mesh", 0}, {"rotation", {0, 0, 0, 0}}},
                         {{"mesh", 0}, {"translation", {1e308, 0, 0}}, {"scale", {10, 1, 1}}}};

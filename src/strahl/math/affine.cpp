@@ -66,8 +66,12 @@ bool is_well_conditioned(const Affine& a) {
   Affine unit = a;
   for (auto& r : unit.m)
     for (std::size_t j = 0; j < 3; ++j) r[j] /= scale;
-  const double condition = norm_rows(unit) * norm_rows(inverse(unit));
-  return condition <= 0x1p30;
+  const Affine back = inverse(unit);
+  // A singular map's inverse holds NaN, which a maximum would pass over.
+  for (const auto& r : back.m)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (!std::isfinite(r[j])) return false;
+  return norm_rows(unit) * norm_rows(back) <= 0x1p30;
 }
 
 }  // namespace strahl
