@@ -8,6 +8,7 @@
 #include <strahl/base/rng.h>
 #include <strahl/build/memory_meter.h>
 #include <strahl/build/space_bins.h>
+#include <strahl/build/space_median.h>
 #include <strahl/build/space_sweep.h>
 
 namespace strahl {
@@ -115,6 +116,48 @@ TEST(Sweep, GivesThePublishedTestsForStrandsOfAllLengths) {
     cost.offer(0, 0.5f, {side, 0, side}, best);
     EXPECT_NEAR(best.cost - static_cast<double>(cut) / 3.0, tests, 1.0);
   }
+}
+
+/// Points spread evenly over [0, reach] of the x axis, in the middle of a unit cube otherwise.
+std::vector<Fragment> points_up_to(double reach) {
+  std::vector<PrimRef> refs;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p{reach * (i + 0.5) / 1000, 0.5, 0.5};
+    refs.push_back(ref_of(p, p));
+  }
+  return make_fragments(refs);
+}
+
+// Content up to R of the side: the best plane lies at R for R <= 1/3, else at (R + 1) / 4.
+TEST(Sweep, CutsEmptySpaceWhereTheAnalysisSays) {
+  const PlaneCost cost({{0, 0, 0}, {1, 1, 1}}, {0.0, 1.0}, 0.0);
+  const std::tuple<double, double, double> table[] = {{0.2, 0.2, 466.7}, {0.5, 0.375, 625.0}};
+  for (const auto& [reach, at, tests] : table) {
+    const std::vector<Fragment> points = points_up_to(reach);
+    SplitPlane best;
+    for_each_sweep_plane(make_sweep_lists(points, Executor())[0], 1000,
+                         [&](float p, const PlaneCounts& n) { cost.offer(0, p, n, best); });
+    EXPECT_NEAR(best.position, at, 1e-2);
+    EXPECT_NEAR(best.cost, tests, 1.0);
+  }
+}
+
+TEST(Median, CostsAsMuchAsTheMiddleForEvenPoints) {
+  const PlaneCost cost({{0, 0, 0}, {1, 1, 1}}, {0.0, 1.0}, 0.0);
+  const std::vector<Fragment> points = points_up_to(1.0);
+  EXPECT_NEAR(find_plane_at_middle(points, cost, 0).cost, 666.7, 0.1);
+  EXPECT_NEAR(find_plane_at_median(points, cost, 0).cost, 666.7, 1.0);
+  const std::vector<Fragment> uneven = points_up_to(0.2);
+  EXPECT_EQ(find_plane_at_middle(uneven, cost, 0).position, 0.5f);
+  EXPECT_NEAR(find_plane_at_median(uneven, cost, 0).position, 0.1f, 1e-3f);
+}
+
+TEST(Median, FindsNoPlaneThatDividesNothing) {
+  const std::vector<PrimRef> refs(5, ref_of({0, 0, 0}, {1, 1, 1}));
+  const PlaneCost cost({{0, 0, 0}, {1, 1, 1}}, kUnitCost, 0.0);
+  EXPECT_FALSE(find_plane_at_middle(make_fragments(refs), cost, 0).is_found());
+  EXPECT_FALSE(find_plane_at_median(make_fragments(refs), cost, 2).is_found());
+  EXPECT_FALSE(find_plane_at_median({}, cost, 0).is_found());
 }
 
 TEST(Sweep, FindsThePlaneThatCountingEveryFragmentFinds) {

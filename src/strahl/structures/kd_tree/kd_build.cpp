@@ -9,6 +9,7 @@
 #include <strahl/base/error.h>
 #include <strahl/build/memory_meter.h>
 #include <strahl/build/space_bins.h>
+#include <strahl/build/space_median.h>
 #include <strahl/build/space_sweep.h>
 #include <strahl/build/top_down.h>
 #include <strahl/structures/kd_tree/kd_build.h>
@@ -18,6 +19,8 @@ namespace {
 
 /// With split=auto, nodes with more fragments are divided at bins, smaller ones exactly.
 constexpr std::size_t kAutoSweepLimit = 500'000;
+/// Smaller leaves cost too little to hope for good splits behind a bad one.
+constexpr std::size_t kWorthABadSplit = 16;
 /// Nodes at least this large ask whether to go on before they are divided.
 constexpr std::size_t kCheckEvery = 1u << 14;
 
@@ -59,10 +62,13 @@ class KdPolicy {
     const std::size_t count = work.fragments.size();
     if (count >= kCheckEvery) check_progress();
     if (count <= static_cast<std::size_t>(options_.max_leaf) || depth >= max_depth_) return {};
-    const SplitPlane plane = find_plane(work);
+    const PlaneCost cost(work.cell, cost_, options_.empty_bonus);
+    if (options_.split == KdSplit::middle || options_.split == KdSplit::median)
+      return find_simple_plane(work, cost, depth);
+    const SplitPlane plane = find_plane(work, cost);
     if (!plane.is_found()) return {};
     const bool is_bad = plane.cost >= sah_leaf_cost(cost_, count);
-    if (is_bad && ++work.bad_splits > options_.bad_splits) return {};
+    if (is_bad && (count < kWorthABadSplit || ++work.bad_splits > options_.bad_splits)) return {};
     return plane;
   }
 
@@ -145,9 +151,22 @@ class KdPolicy {
     return out.nodes.size() - 1;
   }
 
+  /// The other axes are tried in turn where the first has no room or would divide nothing.
+  std::optional<SplitPlane> find_simple_plane(const Work& work, const PlaneCost& cost,
+                                              int depth) const {
+    const int first = options_.axis == KdAxis::longest ? work.cell.longest_axis() : depth;
+    const auto find =
+        options_.split == KdSplit::middle ? find_plane_at_middle : find_plane_at_median;
+    for (int i = 0; i < 3; ++i) {
+      const SplitPlane plane =
+          find(work.fragments, cost, static_cast<std::size_t>((first + i) % 3));
+      if (plane.is_found()) return plane;
+    }
+    return {};
+  }
+
   /// Sorts the ends of the fragments when the node is the first one on its path to be swept.
-  SplitPlane find_plane(Work& work) {
-    const PlaneCost cost(work.cell, cost_, options_.empty_bonus);
+  SplitPlane find_plane(Work& work, const PlaneCost& cost) {
     const std::size_t count = work.fragments.size();
     if (!work.has_events && count > sweep_limit_)
       return find_plane_by_bins(work.fragments, cost, options_.bins, context_.executor);

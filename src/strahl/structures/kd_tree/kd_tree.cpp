@@ -43,9 +43,13 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
       option("split", &O::split,
              {{"auto", KdSplit::automatic},
               {"sah_sweep", KdSplit::sah_sweep},
-              {"sah_binned", KdSplit::sah_binned}},
-             "candidate planes: every end of a primitive, or borders of bins; auto sweeps nodes of "
-             "up to 500,000 primitives"),
+              {"sah_binned", KdSplit::sah_binned},
+              {"middle", KdSplit::middle},
+              {"median", KdSplit::median}},
+             "plane by cost at any end of a primitive or at borders of bins (auto: ends for up to "
+             "500,000 primitives), or the middle of the cell or of its primitives"),
+      option("axis", &O::axis, {{"longest", KdAxis::longest}, {"round_robin", KdAxis::round_robin}},
+             "axis of planes in the middle or at the median"),
       option("bins", &O::bins, 2, 1024, "bins per axis where planes are binned"),
       option("clip", &O::clip, "bound the part of a primitive inside the cell, not all of it"),
       option("traverse_cost", &O::traverse_cost, 0.001, 1000.0, "cost of a traversal step"),
@@ -56,7 +60,7 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
       option("max_depth", &O::max_depth, 0, KdTree::kMaxDepth,
              "depth of leaves at most; 0: 8 + 1.3 log2 of the primitives"),
       option("bad_splits", &O::bad_splits, 0, KdTree::kMaxDepth,
-             "planes on a path that may cost more than a leaf"),
+             "planes on a path that may cost more than a leaf of 16 primitives or more"),
   };
 }
 

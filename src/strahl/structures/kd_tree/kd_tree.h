@@ -25,19 +25,21 @@
 
 namespace strahl {
 
-enum class KdSplit { automatic, sah_sweep, sah_binned };
+enum class KdSplit { automatic, sah_sweep, sah_binned, middle, median };
+enum class KdAxis { longest, round_robin };
 
 /// Defaults of the costs are measured, see README.md.
 struct KdTreeOptions {
   KdSplit split = KdSplit::automatic;
+  KdAxis axis = KdAxis::longest;
   int bins = 64;
   bool clip = true;
   double traverse_cost = 1.0;
-  double intersect_cost = 2.0;
-  double empty_bonus = 0.2;
+  double intersect_cost = 0.7;
+  double empty_bonus = 0.1;
   int max_leaf = 1;
   int max_depth = 0;
-  int bad_splits = 3;
+  int bad_splits = 2;
 };
 
 OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*);

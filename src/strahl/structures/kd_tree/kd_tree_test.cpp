@@ -165,6 +165,8 @@ const char* const kSpecs[] = {
     "kd_tree:clip=off",
     "kd_tree:intersect_cost=50,empty_bonus=0.9,bad_splits=6",
     "kd_tree:max_depth=3",
+    "kd_tree:split=middle",
+    "kd_tree:split=median,axis=round_robin,max_leaf=2",
     "kd_tree:split=sah_binned,clip=off,max_leaf=4,bad_splits=0",
 };
 
@@ -241,7 +243,7 @@ TEST(KdTree, StopsOnTenThousandEqualTriangles) {
   MeshMaker mesh;
   for (int i = 0; i < 10000; ++i) mesh.triangle({0, 0, 0}, {1, 0.25, 0}, {0, 1, 0.5});
   const ScenePtr scene = mesh.scene();
-  for (const char* spec : {"kd_tree", "kd_tree:split=sah_binned"}) {
+  for (const char* spec : {"kd_tree", "kd_tree:split=sah_binned", "kd_tree:split=middle"}) {
     const auto tree = build(scene, spec);
     EXPECT_NO_THROW(tree->validate());
     EXPECT_LE(tree->report().references, 160000u);
@@ -252,7 +254,8 @@ TEST(KdTree, StopsOnTenThousandEqualTriangles) {
 TEST(KdTree, IsTheSameTreeForAnyNumberOfThreads) {
   if (!Executor::threads_available()) GTEST_SKIP() << "built without threads";
   const ScenePtr scene = soup(30000, 0.01, 11).scene();
-  for (const char* spec : {"kd_tree", "kd_tree:split=sah_binned", "kd_tree:clip=off"}) {
+  for (const char* spec :
+       {"kd_tree", "kd_tree:split=sah_binned", "kd_tree:clip=off", "kd_tree:split=median"}) {
     const auto serial = build(scene, spec);
     for (const int threads : {2, 4}) {
       BuildContext context;
@@ -313,7 +316,7 @@ TEST(KdTree, CanBeCancelledWhileItIsBuilt) {
 
 TEST(KdTree, RefusesBadOptionsByName) {
   const ScenePtr scene = soup(1, 0.1, 16).scene();
-  for (const char* spec : {"kd_tree:bins=1", "kd_tree:max_depth=65", "kd_tree:split=middle",
+  for (const char* spec : {"kd_tree:bins=1", "kd_tree:max_depth=65", "kd_tree:split=end",
                            "kd_tree:empty_bonus=1.5", "kd_tree:traverse_cost=0"})
     EXPECT_THROW(build(scene, spec), Error) << spec;
 }
