@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include <strahl/io/text_cursor.h>
 #include <strahl/render/camera.h>
@@ -12,8 +13,8 @@ namespace strahl {
 namespace {
 
 constexpr double kFovDegrees = 35.0;
-/// Empty space around the box.
-constexpr double kRoom = 1.04;
+/// Empty space around the scene.
+constexpr double kRoom = 1.06;
 /// Below this share of the other two extents a scene counts as flat: lidar, terrain, floor plans.
 constexpr double kFlat = 0.55;
 
@@ -23,16 +24,36 @@ bool has_extension(const Scene& scene, std::initializer_list<std::string_view> e
                      [&](std::string_view extension) { return name.ends_with(extension); });
 }
 
-/// Right and up of the picture, as shares of the half image, per unit of depth.
-struct Spread {
-  double x, y;
+/// Half of the field of view along one axis of the image: which slopes are seen. A point at (x, z)
+/// is seen from (c, -d) if |x - c| <= slope (z + d); the largest x - slope z and -x - slope z of
+/// all points decide the nearest (c, d).
+class Fan {
+ public:
+  explicit Fan(double slope) : slope_(slope) {}
+  void add(double x, double z) {
+    right_ = std::max(right_, x - slope_ * z);
+    left_ = std::max(left_, -x - slope_ * z);
+  }
+  double distance() const { return (right_ + left_) / (2.0 * slope_); }
+  double center() const { return (right_ - left_) / 2.0; }
+
+ private:
+  double slope_, right_ = -Aabb::kInf, left_ = -Aabb::kInf;
 };
 
-/// How far behind the box's centre the eye must be for a corner to be inside the image.
-double needed_distance(const Camera& camera, const Vec3d& corner, Spread spread) {
-  const double x = std::abs(dot(corner, camera.right())) / spread.x;
-  const double y = std::abs(dot(corner, camera.up())) / spread.y;
-  return std::max(x, y) - dot(corner, camera.forward());
+/// Boxes of at most about kMaxBoxes primitives, evenly chosen.
+std::vector<Aabb> sample_boxes(const Scene& scene) {
+  constexpr std::uint32_t kMaxBoxes = 200000;
+  const std::uint32_t step = 1 + scene.size() / kMaxBoxes;
+  std::vector<Aabb> boxes;
+  for (std::uint64_t i = 0; i < scene.size(); i += step)
+    boxes.push_back(scene.bounds(static_cast<std::uint32_t>(i)));
+  return boxes;
+}
+
+Vec3d corner_of(const Aabb& box, int corner) {
+  return {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+          corner & 4 ? box.hi.z : box.lo.z};
 }
 
 }  // namespace
@@ -46,31 +67,32 @@ Vec3d guess_up(const Scene& scene) {
   return usually_y != is_flat_along_other ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
 }
 
-View frame_box(const Aabb& box, const Vec3d& forward, const Vec3d& up, double fov_degrees,
-               int width, int height) {
-  View view;
-  view.at = box.is_empty() ? Vec3d() : box.center();
-  view.up = up, view.fov_degrees = fov_degrees;
-  view.width = width, view.height = height;
-  view.from = view.at - normalized(forward);
-  if (box.is_empty()) return view;
+View frame_boxes(std::span<const Aabb> boxes, const Vec3d& forward, const Vec3d& up,
+                 double fov_degrees, int width, int height) {
+  Aabb whole;
+  for (const Aabb& box : boxes) whole.extend(box);
+  const Vec3d middle = whole.is_empty() ? Vec3d() : whole.center();
+  View view{Vec3d() - normalized(forward), {}, up, fov_degrees, width, height};
+  const Camera camera(view);
 
-  const Vec3d unit = normalized(forward);
-  const Camera camera([&] {
-    View centred = view;
-    centred.from = Vec3d() - unit, centred.at = {};
-    return centred;
-  }());
-  const double h = std::tan(fov_degrees * (std::numbers::pi / 360.0)) / kRoom;
-  const Spread spread{h * width / height, h};
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d p{corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                  corner & 4 ? box.hi.z : box.lo.z};
-    distance = std::max(distance, needed_distance(camera, p - view.at, spread));
+  const double slope = std::tan(fov_degrees * (std::numbers::pi / 360.0)) / kRoom;
+  Fan across(slope * width / height), upwards(slope);
+  for (const Aabb& box : boxes) {
+    for (int corner = 0; corner < 8 && !box.is_empty(); ++corner) {
+      const Vec3d p = corner_of(box, corner) - middle;
+      const double z = dot(p, camera.forward());
+      across.add(dot(p, camera.right()), z);
+      upwards.add(dot(p, camera.up()), z);
+    }
   }
-  // A box that is a single point can be seen from anywhere.
-  view.from = view.at - unit * (distance > 0.0 ? distance : std::max(1.0, norm_max(view.at)));
+  const bool is_point = whole.is_empty() || whole.lo == whole.hi;
+  view.at = middle;
+  if (!is_point)
+    view.at = middle + across.center() * camera.right() + upwards.center() * camera.up();
+  // A single point can be seen from anywhere.
+  const double distance =
+      is_point ? 1.0 + norm_max(middle) : std::max(across.distance(), upwards.distance());
+  view.from = view.at - distance * camera.forward();
   return view;
 }
 
@@ -83,7 +105,7 @@ View default_view(const Scene& scene, int width, int height) {
   const Vec3d up = guess_up(scene);
   // Files with y upwards have their front towards +z, those with z upwards towards -y.
   const Vec3d forward = up.y > 0.0 ? Vec3d{-0.55, -0.42, -1.0} : Vec3d{-0.55, 1.0, -0.55};
-  return frame_box(scene.total_bounds(), forward, up, kFovDegrees, width, height);
+  return frame_boxes(sample_boxes(scene), forward, up, kFovDegrees, width, height);
 }
 
 }  // namespace strahl

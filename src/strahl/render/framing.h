@@ -1,6 +1,8 @@
 // render/framing.h - a view for scenes that bring none: the whole scene from above one corner.
 #pragma once
 
+#include <span>
+
 #include <strahl/geometry/scene.h>
 
 namespace strahl {
@@ -9,12 +11,13 @@ namespace strahl {
 /// usual axis of the format, or the other of y and z if the scene is flat along that one.
 Vec3d guess_up(const Scene& scene);
 
-/// The scene's own view, else one in which its bounding box fits a width x height image.
-/// An empty scene gets some view.
+/// The scene's own view, else one from above one corner in which all of it fits a width x height
+/// image. An empty scene gets some view.
 View default_view(const Scene& scene, int width, int height);
 
-/// A view along `forward` (any length but 0) in which the whole box fits the image.
-View frame_box(const Aabb& box, const Vec3d& forward, const Vec3d& up, double fov_degrees,
-               int width, int height);
+/// The nearest view along `forward` (any length but 0) in which all boxes fit the image, with some
+/// room around. Empty boxes do not count. O(boxes).
+View frame_boxes(std::span<const Aabb> boxes, const Vec3d& forward, const Vec3d& up,
+                 double fov_degrees, int width, int height);
 
 }  // namespace strahl

@@ -36,7 +36,7 @@ Look::Look(const Scene& scene, const Camera& camera, const Vec3d& up)
 Vec3d Look::background(const Vec3d& dir) const {
   if (scene_.data().background) return *scene_.data().background;
   const double height = dot(normalized(dir), up_);
-  return mix({0.80, 0.83, 0.86}, {0.38, 0.46, 0.56}, std::clamp(0.5 + 0.8 * height, 0.0, 1.0));
+  return mix({0.62, 0.65, 0.69}, {0.22, 0.28, 0.36}, std::clamp(0.5 + 0.8 * height, 0.0, 1.0));
 }
 
 Vec3d Look::sky(const Vec3d& dir) const {
@@ -52,7 +52,7 @@ Vec3d Look::shade(const SurfacePoint& point, const Vec3d& dir, double open) cons
   const double head = -dot(point.normal, normalized(dir));
   const double key = std::max(0.0, dot(point.normal, key_));
   const double above = 0.5 + 0.5 * dot(point.normal, up_);
-  const Vec3d around = mix({0.30, 0.27, 0.25}, {0.42, 0.47, 0.54}, above) * open;
+  const Vec3d around = mix({0.20, 0.18, 0.17}, {0.30, 0.34, 0.40}, above) * open;
   const Vec3d lamps =
       (0.35 + 0.65 * open) * (0.18 * head * Vec3d{1, 1, 1} + 0.52 * key * Vec3d{1.0, 0.96, 0.88});
   return times(point.color, around + lamps);

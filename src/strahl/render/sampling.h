@@ -35,6 +35,14 @@ inline Sample2 spread_sample(std::uint32_t i, std::uint32_t n, Sample2 shift) {
   return {x - std::floor(x), y - std::floor(y)};
 }
 
+/// A shift for pixel (x, y): neighbours get shifts far apart (multiples of powers of the plastic
+/// number), which looks smoother than noise. `start` moves the whole pattern.
+inline Sample2 pixel_shift(int x, int y, Sample2 start) {
+  const double a = start.x + 0.7548776662466927 * x + 0.5698402909980532 * y;
+  const double b = start.y + 0.5698402909980532 * x + 0.3247179572447460 * y;
+  return {a - std::floor(a), b - std::floor(b)};
+}
+
 inline Sample2 random_sample(Rng& rng) {
   const double x = rng.uniform();
   return {x, rng.uniform()};

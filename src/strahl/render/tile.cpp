@@ -127,12 +127,15 @@ void TileRenderer::record_value(std::size_t i) {
 void TileRenderer::occlude(int sample, int samples) {
   const Scene& scene = scene_.accelerator.scene();
   next_.clear();
+  Rng rng = pixel_rng(0, 0, kOcclusion);
+  const Sample2 start = random_sample(rng);
   std::vector<SurfacePoint> points(hits_.size());
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     if (!hits_[i].is_hit()) continue;
     points[i] = surface_point(scene, queue_.rays[i], hits_[i]);
-    Rng rng = pixel_rng(queue_.paths[i].pixel, 0, kOcclusion);
-    const Sample2 shift = random_sample(rng);
+    const std::size_t pixel = queue_.paths[i].pixel, width = static_cast<std::size_t>(image_.width);
+    const Sample2 shift =
+        pixel_shift(static_cast<int>(pixel % width), static_cast<int>(pixel / width), start);
     for (int k = 0; k < kOcclusionRays; ++k) {
       // The rays of all samples together are spread over the hemisphere.
       const Sample2 s = spread_sample(static_cast<std::uint32_t>(k * samples + sample),
