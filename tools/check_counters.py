@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Proves that counters cost nothing when they are off.
 
-Compiles one file that runs every query with NoCounters on every structure twice: from the sources as
-they are, and from a copy in which every counter call is deleted. Both objects must have the same
-machine code, byte for byte. For the deletion to be possible each call stands on a line of its own,
-`counters.<verb>(...);`, which is checked too.
+For each structure, compiles a file that runs every query on it with NoCounters twice: from the
+sources as they are, and from a copy in which every counter call is deleted. Both objects must have
+the same machine code, byte for byte. For the deletion to be possible each call stands on a line of
+its own, `counters.<verb>(...);`, which is checked too.
 
 usage: check_counters.py [SRC]     (SRC: folder that holds strahl/, default that of the repository)
 """
@@ -32,15 +32,14 @@ def run(command, folder):
     return done.stdout
 
 
-def unit_text(structures):
-    """A translation unit with one function per structure and query."""
-    includes = "".join(f"#include <strahl/structures/{name}/{name}.h>\n" for name, _ in structures)
+def unit_text(name, kind):
+    """A translation unit with one function per query on one structure."""
     functions = "".join(
-        f"void {name}_{query}(const {kind}& structure, SceneVisitor& prims, const PreparedRay& ray, "
+        f"void run(const {kind}& structure, SceneVisitor& prims, const PreparedRay& ray, "
         f"{query}& query, NoCounters& counters) {{ structure.trace(prims, ray, query, counters); }}\n"
-        for name, kind in structures for query in QUERIES)
-    return ("#include <strahl/query/policies.h>\n#include <strahl/query/scene_visitor.h>\n"
-            f"{includes}namespace strahl {{\n{functions}}}\n")
+        for query in QUERIES)
+    return (f"#include <strahl/structures/{name}/{name}.h>\n#include <strahl/query/policies.h>\n"
+            f"#include <strahl/query/scene_visitor.h>\nnamespace strahl {{\n{functions}}}\n")
 
 
 def used_files(folder):
@@ -70,24 +69,35 @@ def machine_code(folder):
     return run(["objdump", "-dr", "unit.o"], folder)
 
 
+def check(name, kind, source, folder):
+    """Why the structure fails the check, or None. `folder` is a free place to work in."""
+    as_is, without = folder / "as_is", folder / "without"
+    for copy in (as_is, without):
+        shutil.copytree(source, copy / "src")
+        (copy / "unit.cpp").write_text(unit_text(name, kind), encoding="utf-8")
+    deleted = delete_calls(without)
+    if deleted == 0:
+        return "reaches no counter call, so nothing was checked"
+    code = machine_code(as_is)
+    if code != machine_code(without):
+        return f"the machine code changes when its {deleted} counter calls are deleted"
+    instructions = sum(line.count("\t") >= 2 for line in code.splitlines())
+    print(f"counters: {name}: {deleted} calls compile to nothing ({instructions} instructions)")
+    return None
+
+
 def main():
     source = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "src")
-    structures = STRUCTURE.findall((source / "strahl/catalog/structures.def").read_text())
     with tempfile.TemporaryDirectory() as temporary:
-        folders = [pathlib.Path(temporary) / name for name in ("as_is", "without")]
-        for folder in folders:
-            shutil.copytree(source, folder / "src")
-            (folder / "unit.cpp").write_text(unit_text(structures), encoding="utf-8")
-        deleted = delete_calls(folders[1])
-        code = [machine_code(folder) for folder in folders]
-    if deleted == 0:
-        sys.exit("counters: no counter call found, so nothing was checked")
-    if code[0] != code[1]:
-        sys.exit(f"counters: the machine code changes when the {deleted} counter calls are deleted")
-    instructions = sum(line.count("\t") >= 2 for line in code[0].splitlines())
-    print(f"counters: {deleted} calls in {len(structures)} structures compile to nothing "
-          f"({instructions} instructions compared)")
+        # One copy first: the sources may be edited while this runs.
+        frozen = pathlib.Path(shutil.copytree(source, pathlib.Path(temporary) / "src"))
+        structures = STRUCTURE.findall((frozen / "strahl/catalog/structures.def").read_text())
+        reasons = {name: check(name, kind, frozen, pathlib.Path(temporary) / name)
+                   for name, kind in structures}
+    bad = [f"counters: {name}: {reason}" for name, reason in reasons.items() if reason]
+    print("\n".join(bad) or f"counters: {len(structures)} structures checked")
+    return 1 if bad or not structures else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())
