@@ -45,16 +45,16 @@ class TopDown {
     }
     const std::size_t inner = policy_.open(work, *split, out);
     const bool fork = context_.executor.width() > 1 && policy_.weight(work) >= kForkWeight;
-    auto [left, right] = policy_.divide(std::move(work), *split);
+    auto parts = policy_.divide(std::move(work), *split);
     if (!fork) {
-      recurse(std::move(left), depth + 1, out);
+      recurse(std::move(parts.first), depth + 1, out);
       policy_.link(out, inner);
-      recurse(std::move(right), depth + 1, out);
+      recurse(std::move(parts.second), depth + 1, out);
       return;
     }
     typename Policy::Output right_out = policy_.make_output();
-    context_.executor.invoke([&] { recurse(std::move(left), depth + 1, out); },
-                             [&] { recurse(std::move(right), depth + 1, right_out); });
+    context_.executor.invoke([&] { recurse(std::move(parts.first), depth + 1, out); },
+                             [&] { recurse(std::move(parts.second), depth + 1, right_out); });
     policy_.link(out, inner);
     policy_.append(out, std::move(right_out));
   }

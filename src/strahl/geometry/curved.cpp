@@ -7,17 +7,9 @@
 namespace strahl {
 namespace {
 
-/// v as the sum of two doubles of at most 26 bits each, so that their products are exact.
-SplitProduct split(double v) {
-  constexpr double kSplitter = 0x1p27 + 1.0;
-  const double scaled = kSplitter * v;
-  const double high = scaled - (scaled - v);
-  return {high, v - high};
-}
-
 /// (high + low) += a * b, renormalised.
 void add_product(double& high, double& low, double a, double b) {
-  const SplitProduct product = split_product(a, b);
+  const TwoTerms product = two_product(a, b);
   const TwoTerms sum = two_sum(high, product.high);
   const TwoTerms result = two_sum(sum.high, sum.low + (low + product.low));
   high = result.high, low = result.low;
@@ -99,12 +91,6 @@ Aabb box_around(const Vec3d& center, const Vec3d& half_extent) {
     box.hi[axis] = -rounded_down(-center[axis], -half_extent[axis]);
   }
   return box;
-}
-
-SplitProduct split_product(double a, double b) {
-  const SplitProduct x = split(a), y = split(b);
-  const double p = a * b;
-  return {p, ((x.high * y.high - p) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 
 }  // namespace strahl

@@ -62,10 +62,4 @@ bool is_valid_coordinate(const Vec3d& v);
 /// The smallest interval of doubles that holds center -+ half_extent, per axis.
 Aabb box_around(const Vec3d& center, const Vec3d& half_extent);
 
-/// The exact product as high + low, without FMA. Requires: no overflow, |a * b| > 2^-969 or 0.
-struct SplitProduct {
-  double high, low;
-};
-SplitProduct split_product(double a, double b);
-
 }  // namespace strahl

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <strahl/geometry/curved.h>
+#include <strahl/math/expansion.h>
 
 namespace strahl {
 namespace {
@@ -139,12 +140,12 @@ TEST(TieToBox, TurnsMinusZeroIntoPlusZero) {
   EXPECT_FALSE(std::signbit(clamped.hit[0].t));
 }
 
-TEST(SplitProduct, IsExact) {
+TEST(TwoProduct, IsExact) {
   Rng rng(2);
   for (int i = 0; i < 20000; ++i) {
     const double a = rng.uniform(-1, 1) * test::random_magnitude(rng, -70, 70);
     const double b = rng.uniform(-1, 1) * test::random_magnitude(rng, -70, 70);
-    const SplitProduct p = split_product(a, b);
+    const TwoTerms p = two_product(a, b);
     ASSERT_EQ(p.high, a * b);
     ASSERT_TRUE(Wide(p.high) + Wide(p.low) == Wide(a) * Wide(b)) << a << " * " << b;
   }

@@ -13,12 +13,12 @@ bool can_be_hit(const Sphere& sphere) {
 
 /// r^2 - p.p, relative to r^2 within a few 2^-104.
 double squared_half_chord(double radius, const LinePoint& p) {
-  SplitProduct square[3];
+  TwoTerms square[3];
   for (int axis = 0; axis < 3; ++axis) {
-    square[axis] = split_product(p.high[axis], p.high[axis]);
+    square[axis] = two_product(p.high[axis], p.high[axis]);
     square[axis].low += 2.0 * p.high[axis] * p.low[axis];
   }
-  const SplitProduct radius2 = split_product(radius, radius);
+  const TwoTerms radius2 = two_product(radius, radius);
   const TwoTerms xy = two_sum(square[0].high, square[1].high);
   const TwoTerms xyz = two_sum(xy.high, square[2].high);
   const TwoTerms rest = two_sum(radius2.high, -xyz.high);

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include <strahl/geometry/triangle.h>
+#include <strahl/math/double_double.h>
 #include <strahl/math/expansion.h>
 
 namespace strahl {
@@ -55,26 +56,64 @@ std::optional<double> certified_quotient(double numerator, double numerator_boun
   return numerator / denominator;
 }
 
-/// Edge value over dir . N, or n . N / N . N for a ray in the plane of the triangle.
-double exact_weight(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri, const Vec3d& p,
-                    const Vec3d& q) {
+/// A triple product rounded once: in double-double when that decides the rounding, else exactly.
+/// @param bound of the sum of the magnitudes of the six monomials
+template <class Wide, class Exact>
+double rounded_once(double bound, Wide wide_value, Exact exact_value) {
+  if (const auto value = certain_rounding(wide_value(), 0x1p-98 * bound)) return *value;
+  return rounded(exact_value());
+}
+
+double rounded_denominator(const Vec3d& dir, const TriangleVertices& tri) {
+  const double bound = 2 * norm_max(tri.b - tri.a) * norm_max(tri.c - tri.a) * norm1(dir);
+  return rounded_once(
+      bound,
+      [&] {
+        return dot(cross(wide_difference(tri.b, tri.a), wide_difference(tri.c, tri.a)), wide(dir));
+      },
+      [&] { return exact_dot(exact_normal(tri), exact(dir)); });
+}
+
+double rounded_numerator(const Vec3d& org, const TriangleVertices& tri) {
+  const double bound = 2 * norm_max(tri.b - tri.a) * norm_max(tri.c - tri.a) * norm1(tri.a - org);
+  return rounded_once(
+      bound,
+      [&] {
+        return dot(cross(wide_difference(tri.b, tri.a), wide_difference(tri.c, tri.a)),
+                   wide_difference(tri.a, org));
+      },
+      [&] { return exact_dot(exact_normal(tri), difference(tri.a, org)); });
+}
+
+double rounded_edge(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
+  const double bound = 2 * norm_max(p - org) * norm_max(q - p) * norm1(dir);
+  return rounded_once(
+      bound, [&] { return dot(cross(wide_difference(p, org), wide_difference(q, p)), wide(dir)); },
+      [&] { return exact_dot(exact_cross(difference(p, org), difference(q, p)), exact(dir)); });
+}
+
+/// Weight of the corner opposite to edge (p, q) for a ray in the plane: n . N / N . N.
+double in_plane_weight(const Vec3d& org, const TriangleVertices& tri, const Vec3d& p,
+                       const Vec3d& q) {
   const auto n = exact_cross(difference(p, org), difference(q, org));
   const auto normal = exact_normal(tri);
-  const double denominator = rounded(exact_dot(normal, exact(dir)));
-  if (denominator != 0.0) return rounded(exact_dot(n, exact(dir))) / denominator;
   return rounded(exact_dot(n, normal)) / rounded(exact_dot(normal, normal));
 }
 
-/// Weight of the corner opposite to edge (p, q): certified double, else exact.
+/// Weight of the corner opposite to edge (p, q): certified double, else rounded once each. The edge
+/// value is dir . (P x (q - p)): the same as dir . (P x Q), without its cancellation.
 double weight(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri, const Vec3d& p,
               const Vec3d& q) {
   constexpr double kUnit = 0x1p-53;
-  const Vec3d P = p - org, Q = q - org, ab = tri.b - tri.a, ac = tri.c - tri.a;
+  const Vec3d P = p - org, pq = q - p, ab = tri.b - tri.a, ac = tri.c - tri.a;
   const double spread = 2 * norm1(dir);
   const std::optional<double> w =
-      certified_quotient(dot(cross(dir, P), Q), 8 * kUnit * spread * norm_max(P) * norm_max(Q),
+      certified_quotient(dot(cross(dir, P), pq), 8 * kUnit * spread * norm_max(P) * norm_max(pq),
                          dot(dir, cross(ab, ac)), 9 * kUnit * spread * norm_max(ab) * norm_max(ac));
-  return (w ? *w : exact_weight(org, dir, tri, p, q)) + 0.0;
+  if (w) return *w + 0.0;
+  const double denominator = rounded_denominator(dir, tri);
+  if (denominator == 0.0) return in_plane_weight(org, tri, p, q) + 0.0;
+  return rounded_edge(org, dir, p, q) / denominator + 0.0;
 }
 
 /// Unit normal; components exact and rounded once where cancellation threatens.
@@ -135,9 +174,8 @@ int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, do
 }
 
 std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {
-  const auto normal = exact_normal(tri);
-  const double denominator = rounded(exact_dot(normal, exact(dir)));
-  const double numerator = rounded(exact_dot(normal, difference(tri.a, org)));
+  const double denominator = rounded_denominator(dir, tri);
+  const double numerator = rounded_numerator(org, tri);
   if (denominator == 0.0) {
     // Three agreeing signs with dir . N = 0: the origin lies on the triangle, in its plane.
     if (numerator != 0.0) return std::nullopt;

@@ -13,9 +13,9 @@ namespace strahl {
 /// Bytes to be parsed. Readers take this, so tests and fuzzers can pass memory.
 struct FileBytes {
   std::span<const std::byte> bytes;
-  std::string name;                    ///< cited in errors
-  std::filesystem::path folder;        ///< where sibling files are looked up; empty: none allowed
-  std::shared_ptr<const void> owner;   ///< keeps bytes alive; readers may keep it for zero copy
+  std::string name;                   ///< cited in errors
+  std::filesystem::path folder;       ///< where sibling files are looked up; empty: none allowed
+  std::shared_ptr<const void> owner;  ///< keeps bytes alive; readers may keep it for zero copy
 
   std::string_view text() const {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

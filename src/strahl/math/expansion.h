@@ -40,10 +40,18 @@ inline TwoTerms two_sum(double a, double b) {
   const double bv = s - a;
   return {s, (a - (s - bv)) + (b - bv)};
 }
-/// a * b exactly as product + error. fma is correctly rounded, in hardware or in software.
+/// v exactly as the sum of two halves of 26 bits each ([Dekker1971]).
+inline TwoTerms split_halves(double v) {
+  const double scaled = 0x1.0000002p27 * v;
+  const double high = scaled - (scaled - v);
+  return {high, v - high};
+}
+/// a * b exactly as product + error, by halves: a fused multiply-add would be a library call on
+/// baseline machines. Requires |a * b| > 2^-969 or 0, and no overflow.
 inline TwoTerms two_product(double a, double b) {
+  const TwoTerms x = split_halves(a), y = split_halves(b);
   const double p = a * b;
-  return {p, std::fma(a, b, -p)};
+  return {p, ((x.high * y.high - p) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 
 /// a - b exactly.
@@ -110,7 +118,7 @@ template <std::size_t N, std::size_t M>
 Expansion<2 * N * M> operator*(const Expansion<N>& a, const Expansion<M>& b) {
   Expansion<2 * N * M> product;
   for (std::size_t j = 0; j < b.count; ++j) {
-    const Expansion<2 * N * M + 2 * N> next = product + a * b.term[j];
+    const Expansion<2 * N* M + 2 * N> next = product + a * b.term[j];
     // The exact product of j + 1 terms has at most 2 N (j + 1) of them, so it fits again.
     product.count = next.count;
     for (std::size_t i = 0; i < next.count; ++i) product.term[i] = next.term[i];

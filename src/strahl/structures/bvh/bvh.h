@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <strahl/base/build_context.h>
 #include <strahl/base/hash.h>
 #include <strahl/base/options.h>
 #include <strahl/build/build_report.h>
