@@ -1,0 +1,214 @@
+// traverse/dda.h - the one loop over all grids: every cell a ray may touch, once, front to back.
+//
+// Source: [AmanatidesWoo1987], with the parameter of each plane computed anew instead of summed up.
+// Which cells: a cell is crossed on axis a while t lies in [enter, leave], enter the parameter of
+//   its near plane for the origin shifted against the ray (PreparedRay::plane_first), lowered by
+//   kPlaneMargin, leave that of its far plane (plane_last), raised by it. The true parameter of any
+//   point of the closed cell, and of anything that the scene's widening moves it to, lies in the
+//   three intervals. dda() visits exactly the cells whose three intervals and
+//   [ray.t_enter, ray.t_exit] have a common parameter, so no hit is lost.
+// How: neighbouring slabs of an axis overlap by the width of their plane's margin: a slab is
+//   entered before its predecessor is left. The loop sweeps t over the "enter" events of all axes
+//   and keeps per axis the slabs that are entered and not left, oldest..newest. At an event it
+//   visits the new slab's cells in the product of the other axes' slabs: those are the cells whose
+//   latest enter is this event. Almost always each axis has one slab, and a step is that of the
+//   paper. Near an edge or corner of cells two or three axes have two slabs each: all cells around
+//   it are visited. A ray inside a plane (direction 0, parameters NaN or infinite) has two slabs
+//   from beginning to end. Far origins and wide margins make the ranges long, in the limit the
+//   whole grid; nothing else changes. Comparisons are written so that NaN means "may".
+// Invariants: enter and leave grow with the slab (planes are monotone and so is rounding), and
+//   leave of a slab is not before enter of the next, so oldest..newest is never empty.
+// Thread safety: pure; needs round-to-nearest.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include <strahl/math/ray.h>
+#include <strahl/math/uniform_cells.h>
+
+namespace strahl {
+
+/// A cell to be looked into. Successive t_enter never decrease.
+struct CellVisit {
+  CellPosition at;
+  std::size_t index;  ///< of Cells::index()
+  double t_enter;     ///< no point of the cell is met before; compare by may_hit_before()
+};
+
+/// What a cell action returns instead of a jump to end the traversal.
+inline constexpr int kStopCells = 0;
+
+/// State of a sweep; use dda().
+template <class Cells>
+class CellSweep {
+ public:
+  CellSweep(const Cells& cells, const PreparedRay& ray) : cells_(cells) {
+    t_begin_ = ray.t_enter, t_end_ = ray.t_exit;
+    for (int a = 0; a < 3; ++a) {
+      Slabs& slabs = axis_[static_cast<std::size_t>(a)];
+      const int n = cells.n(a);
+      slabs.org = ray.org[a], slabs.dir = ray.dir[a], slabs.inv_dir = ray.inv_dir[a];
+      slabs.near_org = ray.near_org[a], slabs.far_org = ray.far_org[a];
+      slabs.step = ray.negative[a] ? -1 : 1;
+      slabs.first = ray.negative[a] ? n - 1 : 0, slabs.last = n - 1 - slabs.first;
+      const double enter = enters(a, slabs.first), leave = leaves(a, slabs.last);
+      t_begin_ = enter > t_begin_ ? enter : t_begin_;
+      t_end_ = leave < t_end_ ? leave : t_end_;
+    }
+  }
+
+  template <class Action>
+  bool run(Action& action) {
+    if (!(t_begin_ <= t_end_)) return false;
+    for (int a = 0; a < 3; ++a) place(a, t_begin_, axis(a).first, axis(a).last);
+    int jump = visit(kNoAxis, t_begin_, action);
+    double t = t_begin_;
+    while (jump != kStopCells) {
+      if (jump > 1 && !leap(jump)) return false;
+      const int a = next_axis();
+      t = axis(a).t_next;
+      if (!(t <= t_end_)) return false;
+      for (int b = 0; b < 3; ++b) leave_slabs(b, t);
+      enter_slab(a);
+      jump = visit(a, t, action);
+    }
+    return true;
+  }
+
+ private:
+  static constexpr int kNoAxis = 3;
+
+  /// One axis. Cells are numbered as in the grid and ordered as the ray meets them.
+  struct Slabs {
+    double org, dir, inv_dir, near_org, far_org;
+    double t_next;  ///< when newest + step is entered; infinite beyond the last
+    double t_left;  ///< when newest - step is left; valid while oldest != newest
+    int step, first, last;
+    int oldest, newest;
+    bool is_single() const { return oldest == newest; }
+  };
+
+  Slabs& axis(int a) { return axis_[static_cast<std::size_t>(a)]; }
+  const Slabs& axis(int a) const { return axis_[static_cast<std::size_t>(a)]; }
+
+  // Scaling rounds a negative parameter to the wrong side, but it stays negative, and the sweep
+  // begins at 0 or later.
+  double enters(int a, int cell) const {
+    const Slabs& s = axis(a);
+    const double p = cells_.plane(a, s.step < 0 ? cell + 1 : cell);
+    return (p - s.near_org) * s.inv_dir * (1.0 - kPlaneMargin);
+  }
+  double leaves(int a, int cell) const {
+    const Slabs& s = axis(a);
+    const double p = cells_.plane(a, s.step < 0 ? cell : cell + 1);
+    return (p - s.far_org) * s.inv_dir * (1.0 + kPlaneMargin);
+  }
+
+  int next_axis() const {
+    const int a = axis_[1].t_next < axis_[0].t_next ? 1 : 0;
+    return axis_[2].t_next < axis(a).t_next ? 2 : a;
+  }
+
+  void enter_slab(int a) {
+    Slabs& s = axis(a);
+    s.newest += s.step;
+    note_planes(a);
+  }
+  /// Parameters of the planes behind and before the newest slab.
+  void note_planes(int a) {
+    Slabs& s = axis(a);
+    s.t_left = leaves(a, s.newest - s.step);
+    s.t_next =
+        s.newest == s.last ? std::numeric_limits<double>::infinity() : enters(a, s.newest + s.step);
+  }
+  /// Forgets the slabs that are left before t.
+  void leave_slabs(int a, double t) {
+    Slabs& s = axis(a);
+    if (s.is_single()) return;
+    if (s.t_left < t)
+      s.oldest = s.newest;
+    else
+      while (leaves(a, s.oldest) < t) s.oldest += s.step;
+  }
+  /// Finds the slabs entered and not left at t; the newest is sought among from..to. The guess is
+  /// off by about as many slabs as are open at once.
+  void place(int a, double t, int from, int to) {
+    Slabs& s = axis(a);
+    const auto [low, high] = std::minmax(from, to);
+    s.newest = std::clamp(cells_.guess(a, s.org + t * s.dir), low, high);
+    while (s.newest != from && enters(a, s.newest) > t) s.newest -= s.step;
+    while (s.newest != to && !(enters(a, s.newest + s.step) > t)) s.newest += s.step;
+    s.oldest = s.newest;
+    while (s.oldest != s.first && !(leaves(a, s.oldest - s.step) < t)) s.oldest -= s.step;
+    note_planes(a);
+  }
+
+  /// Visits the open cells that lie in the newest slab of axis `fresh`, all if kNoAxis.
+  /// Returns the jump allowed from here, 1 where several cells are open, or kStopCells.
+  template <class Action>
+  int visit(int fresh, double t, Action& action) {
+    const bool is_one = (fresh == 0 || axis_[0].is_single()) &&
+                        (fresh == 1 || axis_[1].is_single()) &&
+                        (fresh == 2 || axis_[2].is_single());
+    if (!is_one) return visit_block(fresh, t, action) ? kStopCells : 1;
+    const CellPosition at{axis_[0].newest, axis_[1].newest, axis_[2].newest};
+    return action(CellVisit{at, cells_.index(at), t});
+  }
+  template <class Action>
+  bool visit_block(int fresh, double t, Action& action) {
+    CellPosition from;
+    for (int a = 0; a < 3; ++a)
+      from[static_cast<std::size_t>(a)] = a == fresh ? axis(a).newest : axis(a).oldest;
+    for (int z = from[2];; z += axis_[2].step) {
+      for (int y = from[1];; y += axis_[1].step) {
+        for (int x = from[0];; x += axis_[0].step) {
+          const CellPosition at{x, y, z};
+          if (action(CellVisit{at, cells_.index(at), t}) == kStopCells) return true;
+          if (x == axis_[0].newest) break;
+        }
+        if (y == axis_[1].newest) break;
+      }
+      if (z == axis_[2].newest) break;
+    }
+    return false;
+  }
+
+  /// Moves on to where the ray first leaves the cells nearer than `jump` to the newest one. Open
+  /// slabs behind must be among them. False when the rest of the grid holds nothing else.
+  bool leap(int jump) {
+    double t_out = std::numeric_limits<double>::infinity();
+    for (int a = 0; a < 3; ++a) {
+      const Slabs& s = axis(a);
+      if ((s.newest - s.oldest) * s.step >= jump) return true;
+      if ((s.last - s.newest) * s.step < jump) continue;
+      t_out = std::min(t_out, enters(a, s.newest + jump * s.step));
+    }
+    if (!(t_out <= t_end_)) return false;
+    for (int a = 0; a < 3; ++a) {
+      const Slabs& s = axis(a);
+      const int reach = std::min(jump - 1, (s.last - s.newest) * s.step);
+      place(a, t_out, s.newest, s.newest + reach * s.step);
+    }
+    return true;
+  }
+
+  const Cells& cells_;
+  double t_begin_, t_end_;
+  std::array<Slabs, 3> axis_;
+};
+
+/// Calls action(const CellVisit&) -> int for every cell that a point of the ray may lie in, each
+/// once, by ascending t_enter. The action returns kStopCells to end the traversal, else a jump:
+/// 1 for the next cell; d > 1 if all cells whose position differs by less than d on every axis need
+/// no visit (it is followed where just one cell is open, else taken for 1).
+/// @param cells has n(axis), plane(axis, i) monotone in i, guess(axis, x), index(position)
+/// @return whether the action stopped it. O(cells visited).
+template <class Cells, class Action>
+bool dda(const Cells& cells, const PreparedRay& ray, Action&& action) {
+  return CellSweep<Cells>(cells, ray).run(action);
+}
+
+}  // namespace strahl
