@@ -67,8 +67,7 @@ class KdPolicy {
       return find_simple_plane(work, cost, depth);
     const SplitPlane plane = find_plane(work, cost);
     if (!plane.is_found()) return {};
-    const bool is_bad = plane.cost >= sah_leaf_cost(cost_, count);
-    if (is_bad && (count < kWorthABadSplit || ++work.bad_splits > options_.bad_splits)) return {};
+    if (plane.cost >= sah_leaf_cost(cost_, count) && !may_split_badly(work, plane)) return {};
     return plane;
   }
 
@@ -149,6 +148,13 @@ class KdPolicy {
     meter_.take(kGrowth * sizeof(KdNode));
     out.nodes.push_back(node);
     return out.nodes.size() - 1;
+  }
+
+  /// Whether a split that costs more than a leaf may be made in the hope of better ones behind it.
+  bool may_split_badly(Work& work, const SplitPlane& plane) const {
+    const std::size_t count = work.fragments.size();
+    const bool divides = std::min(plane.left_count, plane.right_count) < count;
+    return divides && count >= kWorthABadSplit && ++work.bad_splits <= options_.bad_splits;
   }
 
   /// The other axes are tried in turn where the first has no room or would divide nothing.

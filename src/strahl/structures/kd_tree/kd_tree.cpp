@@ -59,7 +59,7 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
       option("max_leaf", &O::max_leaf, 1, 1000000, "primitives that are never divided"),
       option("max_depth", &O::max_depth, 0, KdTree::kMaxDepth,
              "depth of leaves at most; 0: 8 + 1.3 log2 of the primitives"),
-      option("bad_splits", &O::bad_splits, 0, KdTree::kMaxDepth,
+      option("bad_splits", &O::bad_splits, 0, 8,
              "planes on a path that may cost more than a leaf of 16 primitives or more"),
   };
 }

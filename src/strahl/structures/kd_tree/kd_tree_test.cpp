@@ -246,7 +246,7 @@ TEST(KdTree, StopsOnTenThousandEqualTriangles) {
   for (const char* spec : {"kd_tree", "kd_tree:split=sah_binned", "kd_tree:split=middle"}) {
     const auto tree = build(scene, spec);
     EXPECT_NO_THROW(tree->validate());
-    EXPECT_LE(tree->report().references, 160000u);
+    EXPECT_LE(tree->report().references, 40000u);
     EXPECT_EQ(tree->closest_hit({{0.2, 0.3, -1}, {0, 0, 1}}).id.prim, 0u);
   }
 }
@@ -292,7 +292,7 @@ TEST(KdTree, KeepsToTheMemoryLimit) {
   BuildContext context;
   context.memory_limit = 2'000'000;
   try {
-    build(scene, "kd_tree:intersect_cost=1000,bad_splits=64", context);
+    build(scene, "kd_tree:intersect_cost=1000,bad_splits=8", context);
     ADD_FAILURE() << "built beyond the limit";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::resource);
