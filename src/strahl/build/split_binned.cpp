@@ -1,5 +1,8 @@
 #include <algorithm>
-#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <type_traits>
 
 #include <strahl/build/object_split.h>
 
@@ -12,6 +15,20 @@ struct Bin {
   Aabb box;
   std::size_t count = 0;
   void add(const Bin& o) { box.extend(o.box), count += o.count; }
+};
+
+/// Room for bins of which only the first `count` are made: small sets must not pay for all.
+class Bins {
+ public:
+  explicit Bins(std::size_t count) : bins_(reinterpret_cast<Bin*>(room_)) {
+    std::uninitialized_value_construct_n(bins_, count);
+  }
+  Bin& operator[](std::size_t i) { return bins_[i]; }
+
+ private:
+  static_assert(std::is_trivially_destructible_v<Bin>);
+  alignas(Bin) std::byte room_[kMaxBins * sizeof(Bin)];
+  Bin* bins_;
 };
 
 class BinnedSplitter final : public ObjectSplitter {
@@ -42,7 +59,7 @@ class BinnedSplitter final : public ObjectSplitter {
         return ca != cb ? ca < cb : a.reference < b.reference;
       });
     } else {
-      const Scale scale(center_box(set), axis, bins_);
+      const Scale scale(center_box(set), axis, bins_for(set));
       middle = std::partition(first, last,
                               [&](const PrimRef& r) { return scale.bin(r.box) <= split.position; });
     }
@@ -76,6 +93,12 @@ class BinnedSplitter final : public ObjectSplitter {
     }
   };
 
+  /// Few primitives need few bins: every one can have its own.
+  int bins_for(const ObjectSet& set) const {
+    return set.size() < static_cast<std::size_t>(bins_) / 2 ? static_cast<int>(2 * set.size())
+                                                            : bins_;
+  }
+
   Aabb center_box(const ObjectSet& set) const {
     Aabb box;
     for (std::size_t i = set.begin; i < set.end; ++i) box.extend(doubled_center(refs_[i].box));
@@ -89,14 +112,13 @@ class BinnedSplitter final : public ObjectSplitter {
   }
 
   void try_axis(const ObjectSet& set, const Aabb& centers, int axis, ObjectSplit& best) const {
-    const Scale scale(centers, axis, bins_);
-    std::array<Bin, kMaxBins> bins;
+    const Scale scale(centers, axis, bins_for(set));
+    Bins bins(scale.last + 1), right(scale.last + 1);
     for (std::size_t i = set.begin; i < set.end; ++i) {
       Bin& bin = bins[scale.bin(refs_[i].box)];
       bin.box.extend(refs_[i].box);
       ++bin.count;
     }
-    std::array<Bin, kMaxBins> right;
     Bin sum;
     for (std::size_t b = scale.last; b > 0; --b) sum.add(bins[b]), right[b] = sum;
     const double whole = set.box.half_area();
