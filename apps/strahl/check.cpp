@@ -1,6 +1,5 @@
 // apps/strahl/check.cpp - `strahl check`: the mesh doctor.
 #include <apps/strahl/commands.h>
-#include <apps/strahl/interrupt.h>
 #include <memory>
 
 #include <fmt/core.h>
@@ -64,7 +63,6 @@ int run_check(const CheckOptions& options) {
   Session session(options);
   const SceneData data = session.load_data(options.scene);
   std::uint64_t total = 0;
-  const EndsAtOnce ends_at_once;
   const Json geometries = check_json(data, options.keep, total);
   if (options.json)
     print_json({{"scene", options.scene},

@@ -1,5 +1,6 @@
 // apps/strahl/generate.cpp - `strahl generate`: standard scenes as files.
 #include <apps/strahl/commands.h>
+#include <apps/strahl/interrupt.h>
 #include <memory>
 #include <optional>
 
@@ -34,7 +35,10 @@ std::string generator_spec(const GenerateOptions& options) {
 
 int run_generate(const GenerateOptions& options) {
   const std::string spec = generator_spec(options);
-  write_generated(spec, options.output);
+  {
+    const OwnsOutput owns_output;
+    write_generated(spec, options.output);
+  }
   if (options.json) print_json({{"generator", spec}, {"output", options.output}});
   return kExitOk;
 }

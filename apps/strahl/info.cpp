@@ -1,6 +1,5 @@
 // apps/strahl/info.cpp - `strahl info`: what a scene holds, and what a structure makes of it.
 #include <apps/strahl/commands.h>
-#include <apps/strahl/interrupt.h>
 #include <memory>
 
 #include <fmt/core.h>
@@ -79,7 +78,6 @@ int run_info(const InfoOptions& options) {
   if (!options.spec.empty()) {
     const std::unique_ptr<Accelerator> accelerator = session.build(scene, options.spec);
     session.finish_progress();
-    const EndsAtOnce ends_at_once;
     accelerator->validate();
     json["structure"] = structure_json(*accelerator);
   }

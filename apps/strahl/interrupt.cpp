@@ -1,35 +1,47 @@
 #include <apps/strahl/interrupt.h>
 #include <atomic>
 #include <csignal>
+#include <sys/time.h>
 #include <unistd.h>
 
 namespace strahl::cli {
 namespace {
 
+/// How long work may take to notice the flag.
+constexpr int kPatienceMicroseconds = 500000;
+
 std::atomic<int> received{0};
-std::atomic<bool> may_end_at_once{false};
+std::atomic<bool> owns_output{false};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-extern "C" void on_signal(int signal) {
+void start_timer() {
+  const itimerval once{{0, 0}, {0, kPatienceMicroseconds}};
+  setitimer(ITIMER_REAL, &once, nullptr);
+}
+
+extern "C" void on_interrupt(int signal) {
   received = signal;
-  if (may_end_at_once) _exit(128 + signal);
+  start_timer();
+}
+
+extern "C" void on_timer(int) {
+  if (owns_output) return start_timer();  // asks again when the output may be complete
+  static constexpr char kMessage[] = "\nstrahl: error: interrupted\n";
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
+  _exit(128 + received);
 }
 
 }  // namespace
 
 void catch_interrupts() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  std::signal(SIGALRM, on_timer);
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
 }
 
 int interrupt_signal() { return received; }
 
-EndsAtOnce::EndsAtOnce() {
-  may_end_at_once = true;
-  // A signal that came just before would otherwise wait for the end of the work.
-  if (received != 0) _exit(128 + received);
-}
-
-EndsAtOnce::~EndsAtOnce() { may_end_at_once = false; }
+OwnsOutput::OwnsOutput() { owns_output = true; }
+OwnsOutput::~OwnsOutput() { owns_output = false; }
 
 }  // namespace strahl::cli

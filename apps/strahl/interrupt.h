@@ -1,25 +1,27 @@
-// apps/strahl/interrupt.h - Ctrl-C: work in progress is asked to stop, or ended where that is safe.
+// apps/strahl/interrupt.h - Ctrl-C: work is asked to stop, and ended when it does not answer.
 //
+// A signal sets a flag that progress callbacks read. Work that does not ask within half a second
+// (reading a file, one long batch) is ended from outside, unless an output is being written: a
+// temporary file would stay behind.
 // The only global state of the program: signal handlers can reach nothing else.
-// Thread safety: all functions from any thread.
+// Thread safety: all functions from any thread; one OwnsOutput at a time.
 #pragma once
 
 namespace strahl::cli {
 
-/// Installs handlers of SIGINT and SIGTERM. To be called once, before any thread starts.
+/// Handles SIGINT and SIGTERM from now on. To be called once, before any thread starts.
 void catch_interrupts();
 
 /// The signal received, 0 if none.
 int interrupt_signal();
 
-/// While alive, a signal ends the process at once with exit code 128 + signal. Only for work that
-/// asks nobody for permission to go on (reading a file, freezing a scene) and owns no output.
-class EndsAtOnce {
+/// While alive, the process is not ended from outside.
+class OwnsOutput {
  public:
-  EndsAtOnce();
-  ~EndsAtOnce();
-  EndsAtOnce(const EndsAtOnce&) = delete;
-  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
+  OwnsOutput();
+  ~OwnsOutput();
+  OwnsOutput(const OwnsOutput&) = delete;
+  OwnsOutput& operator=(const OwnsOutput&) = delete;
 };
 
 }  // namespace strahl::cli

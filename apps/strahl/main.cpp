@@ -34,7 +34,8 @@ int exit_code(ErrorCode code) {
 /// Runs and turns whatever is thrown into a message and an exit code.
 int guarded(const Runner& run) {
   try {
-    return run();
+    const int code = run();
+    return interrupt_signal() != 0 ? 128 + interrupt_signal() : code;
   } catch (const Error& error) {
     print_error(error.code() == ErrorCode::cancelled ? "interrupted" : error.what());
     return exit_code(error.code());

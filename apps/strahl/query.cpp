@@ -4,6 +4,7 @@
 // memory is that of rays, answers and structure.
 #include <algorithm>
 #include <apps/strahl/commands.h>
+#include <apps/strahl/interrupt.h>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -65,10 +66,10 @@ class QueryRun {
         all();
         break;
       case QueryKind::any:
-        scalars<std::uint8_t>("occluded", &Accelerator::any_hit, [](auto v) { return v; });
+        scalars<std::uint8_t>("occluded", &Accelerator::any_hit);
         break;
       case QueryKind::count:
-        scalars<std::uint32_t>("counts", &Accelerator::count_hits, [](auto v) { return v; });
+        scalars<std::uint32_t>("counts", &Accelerator::count_hits);
         break;
       case QueryKind::inside:
         inside();
@@ -111,19 +112,20 @@ class QueryRun {
 
   void closest();
   void all();
+  /// Surfaces of the hits of one chunk of `all`, whose first ray is `first`.
+  void fill(std::size_t first, const std::vector<Hit>& hits, const RawArray<std::int64_t>& splits,
+            HitArrays& arrays, RawArray<std::uint32_t>& ray_ids) const;
   void inside();
 
   /// Queries with one number per ray; positive ones count as hits.
-  template <class T, class Query, class Value>
-  void scalars(const char* name, Query query, Value value) {
+  template <class T, class Query>
+  void scalars(const char* name, Query query) {
     require_memory(rays_.size(), sizeof(T));
     RawArray<T> answers(rays_.size());
     for_chunks([&](std::size_t first, const RayBatch& rays, const BatchContext& batch) {
-      const BatchReport part =
-          (accelerator_.*query)(rays, answers.span().subspan(first, rays.size()), batch);
-      return part;
+      return (accelerator_.*query)(rays, answers.span().subspan(first, rays.size()), batch);
     });
-    for (const T answer : answers.span()) outcome_.hits += value(answer) > 0 ? 1u : 0u;
+    for (const T answer : answers.span()) outcome_.hits += answer > 0 ? 1u : 0u;
     Hash64 hash;
     hash.add(std::as_const(answers).span());
     outcome_.hash = hash.digest();
@@ -133,6 +135,7 @@ class QueryRun {
   void write(const std::function<void(NpzWriter&)>& add_arrays) const {
     if (options_.output.empty()) return;
     context_.check(1.0, "writing");
+    const OwnsOutput owns_output;
     NpzWriter file(options_.output);
     add_arrays(file);
     file.close();
@@ -198,21 +201,8 @@ void QueryRun::all() {
 
   HitArrays arrays(outcome_.hits);
   RawArray<std::uint32_t> ray_ids(outcome_.hits);
-  RayFile::Chunk chunk;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::size_t first = p * kChunk;
-    rays_.load(first, std::min(kChunk, rays_.size() - first), chunk);
-    context_.executor.parallel_for(0, chunk.rays.size(), kGrain, [&](std::size_t i, std::size_t e) {
-      for (; i < e; ++i) {
-        const Ray ray = chunk.rays.ray(i);
-        for (auto k = splits[first + i]; k < splits[first + i + 1]; ++k) {
-          const auto at = static_cast<std::size_t>(k);
-          arrays.set(at, accelerator_.scene(), ray,
-                     parts[p][static_cast<std::size_t>(k - splits[first])]);
-          ray_ids[at] = static_cast<std::uint32_t>(first + i);
-        }
-      }
-    });
+    fill(p * kChunk, parts[p], splits, arrays, ray_ids);
     std::vector<Hit>().swap(parts[p]);
     context_.check(static_cast<double>(p + 1) / static_cast<double>(parts.size()), "surfaces");
   }
@@ -226,6 +216,25 @@ void QueryRun::all() {
     file.add("ray_ids", npy_array(std::as_const(ray_ids).span()));
     file.add("ray_splits", npy_array(std::as_const(splits).span()));
   });
+}
+
+void QueryRun::fill(std::size_t first, const std::vector<Hit>& hits,
+                    const RawArray<std::int64_t>& splits, HitArrays& arrays,
+                    RawArray<std::uint32_t>& ray_ids) const {
+  RayFile::Chunk chunk;
+  rays_.load(first, std::min(kChunk, rays_.size() - first), chunk);
+  const auto begin = static_cast<std::size_t>(splits[first]);
+  const auto fill_rays = [&](std::size_t i, std::size_t end) {
+    for (; i < end; ++i) {
+      const Ray ray = chunk.rays.ray(i);
+      const auto last = static_cast<std::size_t>(splits[first + i + 1]);
+      for (auto k = static_cast<std::size_t>(splits[first + i]); k < last; ++k) {
+        arrays.set(k, accelerator_.scene(), ray, hits[k - begin]);
+        ray_ids[k] = static_cast<std::uint32_t>(first + i);
+      }
+    }
+  };
+  context_.executor.parallel_for(0, chunk.rays.size(), kGrain, fill_rays);
 }
 
 QueryKind query_kind(const std::string& name) {

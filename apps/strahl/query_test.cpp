@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <thread>
@@ -15,6 +16,8 @@
 #include <gtest/gtest.h>
 
 #include <strahl/catalog/catalog.h>
+#include <strahl/io/load.h>
+#include <strahl/io/ray_file.h>
 
 namespace strahl::cli {
 namespace {
@@ -99,6 +102,34 @@ TEST_F(QueryCommand, AllListsWhatCountCounts) {
     ASSERT_EQ(last - first, counts[i]);
     EXPECT_TRUE(std::is_sorted(t.data() + first, t.data() + last));
     for (std::size_t k = first; k < last; ++k) ASSERT_EQ(rays[k], i);
+  }
+}
+
+TEST_F(QueryCommand, ManyRaysAreAnsweredAsInOneBatch) {
+  write_rays("many.npy", 70000);  // more than are traced in one call
+  const RayFile file({folder_ / "many.npy", {}, {}, {}});
+  RayFile::Chunk whole;
+  file.load(0, file.size(), whole);
+  std::vector<Hit> hits(file.size());
+  build(std::make_shared<const Scene>(load_scene_data("gen:balls:2")), kDefaultSpec)
+      ->closest_hit(whole.rays, hits);
+
+  ASSERT_EQ(run("query gen:balls:2 --rays many.npy -o closest.npz").code, 0);
+  ASSERT_EQ(run("query gen:balls:2 --rays many.npy --query all -o all.npz").code, 0);
+  ASSERT_EQ(run("query gen:balls:2 --rays many.npy --query any -o any.npz").code, 0);
+  const auto t = array<double>("closest.npz", "t_hit");
+  const auto ids = array<std::uint32_t>("closest.npz", "primitive_ids");
+  const auto all_t = array<double>("all.npz", "t_hit");
+  const auto splits = array<std::int64_t>("all.npz", "ray_splits");
+  const auto occluded = array<std::uint8_t>("any.npz", "occluded");
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    ASSERT_EQ(t[i], hits[i].t) << i;
+    ASSERT_EQ(ids[i], hits[i].id.prim) << i;
+    ASSERT_EQ(occluded[i] != 0, hits[i].is_hit()) << i;
+    ASSERT_EQ(splits[i + 1] > splits[i], hits[i].is_hit()) << i;
+    if (hits[i].is_hit()) {
+      ASSERT_EQ(all_t[static_cast<std::size_t>(splits[i])], hits[i].t) << i;
+    }
   }
 }
 

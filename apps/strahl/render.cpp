@@ -1,6 +1,7 @@
 // apps/strahl/render.cpp - `strahl render`: pictures as PNG or EXR.
 #include <apps/strahl/arguments.h>
 #include <apps/strahl/commands.h>
+#include <apps/strahl/interrupt.h>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -69,6 +70,7 @@ RenderOptions make_options(const RenderArguments& arguments, const Scene& scene,
 }
 
 void write_image(const std::string& path, Format format, const Image& image) {
+  const OwnsOutput owns_output;
   if (format == Format::png) write_png(path, image);
   if (format == Format::exr) write_exr(path, image);
 }

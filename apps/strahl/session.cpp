@@ -53,7 +53,6 @@ Session::Session(const CommonOptions& options)
 }
 
 SceneData Session::load_data(const std::string& scene) {
-  const EndsAtOnce ends_at_once;
   SceneData data = load_scene_data(scene);
   for (const std::string& text : data.warnings) warn(text);
   if (is_empty(data)) warn(scene + ": empty scene");
@@ -63,7 +62,6 @@ SceneData Session::load_data(const std::string& scene) {
 
 std::shared_ptr<const Scene> Session::load(const std::string& scene) {
   SceneData data = load_data(scene);
-  const EndsAtOnce ends_at_once;
   return std::make_shared<const Scene>(std::move(data));
 }
 

@@ -42,10 +42,10 @@ Vec3d Look::background(const Vec3d& dir) const {
 Vec3d Look::sky(const Vec3d& dir) const {
   const Vec3d unit = normalized(dir);
   const double height = dot(unit, up_);
-  const Vec3d dome = height > 0.0 ? mix({0.95, 0.95, 0.95}, {0.55, 0.70, 0.95}, std::sqrt(height))
-                                  : mix({0.55, 0.54, 0.52}, {0.22, 0.21, 0.20}, -height);
-  const double glow = std::pow(std::max(0.0, dot(unit, key_)), 24.0);
-  return dome + glow * Vec3d{5.0, 4.6, 4.0};
+  const Vec3d dome = height > 0.0 ? mix({0.62, 0.62, 0.62}, {0.36, 0.46, 0.62}, std::sqrt(height))
+                                  : mix({0.36, 0.35, 0.34}, {0.14, 0.13, 0.12}, -height);
+  const double glow = std::pow(std::max(0.0, dot(unit, key_)), 8.0);
+  return dome + glow * Vec3d{1.7, 1.55, 1.35};
 }
 
 Vec3d Look::shade(const SurfacePoint& point, const Vec3d& dir, double open) const {

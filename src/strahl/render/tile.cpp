@@ -190,8 +190,13 @@ void TileRenderer::bounce(std::size_t i, int sample, int depth) {
   }
   if (depth == kMaxBounces) return;
   const SurfacePoint point = surface_point(scene_.accelerator.scene(), ray, hit);
-  Rng rng = pixel_rng(path.pixel, sample, kBounce + depth);
-  const Vec3d dir = cosine_direction(point.normal, random_sample(rng));
+  // The first directions of all samples of a pixel are spread over the hemisphere together.
+  Rng rng = pixel_rng(path.pixel, depth == 0 ? 0 : sample, kBounce + depth);
+  Sample2 s = random_sample(rng);
+  if (depth == 0)
+    s = spread_sample(static_cast<std::uint32_t>(sample),
+                      static_cast<std::uint32_t>(sample_count(scene_.options)), s);
+  const Vec3d dir = cosine_direction(point.normal, s);
   path.throughput = {path.throughput.x * point.color.x, path.throughput.y * point.color.y,
                      path.throughput.z * point.color.z};
   next_.add(leaving(point, dir), hit.id, path);
