@@ -45,16 +45,17 @@ inline constexpr int kStopCells = 0;
 template <class Cells>
 class CellSweep {
  public:
-  CellSweep(const Cells& cells, const PreparedRay& ray) : cells_(cells) {
+  CellSweep(const Cells& cells, const PreparedRay& ray) : cells_(cells), ray_(ray) {
     t_begin_ = ray.t_enter, t_end_ = ray.t_exit;
     for (int a = 0; a < 3; ++a) {
-      Slabs& slabs = axis_[static_cast<std::size_t>(a)];
-      const int n = cells.n(a);
-      slabs.org = ray.org[a], slabs.dir = ray.dir[a], slabs.inv_dir = ray.inv_dir[a];
-      slabs.near_org = ray.near_org[a], slabs.far_org = ray.far_org[a];
-      slabs.step = ray.negative[a] ? -1 : 1;
-      slabs.first = ray.negative[a] ? n - 1 : 0, slabs.last = n - 1 - slabs.first;
-      const double enter = enters(a, slabs.first), leave = leaves(a, slabs.last);
+      Slabs& s = axis(a);
+      const int last = cells.n(a) - 1;
+      s.near_org = ray.near_org[a], s.far_org = ray.far_org[a];
+      s.inv_early = ray.inv_dir[a] * (1.0 - kPlaneMargin);
+      s.inv_late = ray.inv_dir[a] * (1.0 + kPlaneMargin);
+      s.step = ray.negative[a] ? -1 : 1, s.is_down = ray.negative[a];
+      s.first = s.is_down ? last : 0, s.last = s.is_down ? 0 : last;
+      const double enter = enters(a, s.first), leave = leaves(a, s.last);
       t_begin_ = enter > t_begin_ ? enter : t_begin_;
       t_end_ = leave < t_end_ ? leave : t_end_;
     }
@@ -65,46 +66,55 @@ class CellSweep {
     if (!(t_begin_ <= t_end_)) return false;
     for (int a = 0; a < 3; ++a) place(a, t_begin_, axis(a).first, axis(a).last);
     int jump = visit(kNoAxis, t_begin_, action);
-    double t = t_begin_;
+    note_alone();
     while (jump != kStopCells) {
       if (jump > 1 && !leap(jump)) return false;
       const int a = next_axis();
-      t = axis(a).t_next;
+      const double t = axis(a).t_next;
       if (!(t <= t_end_)) return false;
-      for (int b = 0; b < 3; ++b) leave_slabs(b, t);
-      enter_slab(a);
-      jump = visit(a, t, action);
+      if (t_alone_ < t) {
+        for (Slabs& s : axis_) s.oldest = s.newest;
+        enter_slab(a);
+        t_alone_ = axis(a).t_left;
+        jump = visit_newest(t, action);
+      } else {
+        for (int b = 0; b < 3; ++b) leave_slabs(b, t);
+        enter_slab(a);
+        jump = visit(a, t, action);
+        note_alone();
+      }
     }
     return true;
   }
 
  private:
   static constexpr int kNoAxis = 3;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   /// One axis. Cells are numbered as in the grid and ordered as the ray meets them.
   struct Slabs {
-    double org, dir, inv_dir, near_org, far_org;
-    double t_next;  ///< when newest + step is entered; infinite beyond the last
-    double t_left;  ///< when newest - step is left; valid while oldest != newest
+    double near_org, far_org;
+    double inv_early, inv_late;  ///< 1 / direction with the margin in it
+    double t_next;               ///< when newest + step is entered; infinite beyond the last
+    double t_left;               ///< when newest - step is left; valid while oldest != newest
     int step, first, last;
     int oldest, newest;
+    bool is_down;
     bool is_single() const { return oldest == newest; }
   };
 
   Slabs& axis(int a) { return axis_[static_cast<std::size_t>(a)]; }
   const Slabs& axis(int a) const { return axis_[static_cast<std::size_t>(a)]; }
 
-  // Scaling rounds a negative parameter to the wrong side, but it stays negative, and the sweep
+  // The margin brings a negative parameter to the wrong side, but it stays negative, and the sweep
   // begins at 0 or later.
   double enters(int a, int cell) const {
     const Slabs& s = axis(a);
-    const double p = cells_.plane(a, s.step < 0 ? cell + 1 : cell);
-    return (p - s.near_org) * s.inv_dir * (1.0 - kPlaneMargin);
+    return (cells_.plane(a, cell + s.is_down) - s.near_org) * s.inv_early;
   }
   double leaves(int a, int cell) const {
     const Slabs& s = axis(a);
-    const double p = cells_.plane(a, s.step < 0 ? cell : cell + 1);
-    return (p - s.far_org) * s.inv_dir * (1.0 + kPlaneMargin);
+    return (cells_.plane(a, cell + !s.is_down) - s.far_org) * s.inv_late;
   }
 
   int next_axis() const {
@@ -121,9 +131,15 @@ class CellSweep {
   void note_planes(int a) {
     Slabs& s = axis(a);
     s.t_left = leaves(a, s.newest - s.step);
-    s.t_next =
-        s.newest == s.last ? std::numeric_limits<double>::infinity() : enters(a, s.newest + s.step);
+    s.t_next = s.newest == s.last ? kInfinity : enters(a, s.newest + s.step);
   }
+  /// When every axis has one slab, unless more are entered before.
+  void note_alone() {
+    t_alone_ = -kInfinity;
+    for (const Slabs& s : axis_)
+      if (!s.is_single()) t_alone_ = s.t_left <= t_alone_ ? t_alone_ : never_if_nan(s.t_left);
+  }
+  static double never_if_nan(double t) { return t == t ? t : kInfinity; }
   /// Forgets the slabs that are left before t.
   void leave_slabs(int a, double t) {
     Slabs& s = axis(a);
@@ -138,7 +154,7 @@ class CellSweep {
   void place(int a, double t, int from, int to) {
     Slabs& s = axis(a);
     const auto [low, high] = std::minmax(from, to);
-    s.newest = std::clamp(cells_.guess(a, s.org + t * s.dir), low, high);
+    s.newest = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
     while (s.newest != from && enters(a, s.newest) > t) s.newest -= s.step;
     while (s.newest != to && !(enters(a, s.newest + s.step) > t)) s.newest += s.step;
     s.oldest = s.newest;
@@ -153,7 +169,11 @@ class CellSweep {
     const bool is_one = (fresh == 0 || axis_[0].is_single()) &&
                         (fresh == 1 || axis_[1].is_single()) &&
                         (fresh == 2 || axis_[2].is_single());
-    if (!is_one) return visit_block(fresh, t, action) ? kStopCells : 1;
+    if (is_one) return visit_newest(t, action);
+    return visit_block(fresh, t, action) ? kStopCells : 1;
+  }
+  template <class Action>
+  int visit_newest(double t, Action& action) const {
     const CellPosition at{axis_[0].newest, axis_[1].newest, axis_[2].newest};
     return action(CellVisit{at, cells_.index(at), t});
   }
@@ -179,7 +199,7 @@ class CellSweep {
   /// Moves on to where the ray first leaves the cells nearer than `jump` to the newest one. Open
   /// slabs behind must be among them. False when the rest of the grid holds nothing else.
   bool leap(int jump) {
-    double t_out = std::numeric_limits<double>::infinity();
+    double t_out = kInfinity;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
       if ((s.newest - s.oldest) * s.step >= jump) return true;
@@ -192,11 +212,14 @@ class CellSweep {
       const int reach = std::min(jump - 1, (s.last - s.newest) * s.step);
       place(a, t_out, s.newest, s.newest + reach * s.step);
     }
+    note_alone();
     return true;
   }
 
   const Cells& cells_;
+  const PreparedRay& ray_;
   double t_begin_, t_end_;
+  double t_alone_;  ///< see note_alone()
   std::array<Slabs, 3> axis_;
 };
 
