@@ -41,9 +41,24 @@ class Fan {
   double slope_, right_ = -Aabb::kInf, left_ = -Aabb::kInf;
 };
 
+/// Moves the eye along one axis of the image, from `center`, until there is as much room on one
+/// side as on the other: of the two axes only the one that decided the distance is so by itself.
+double balanced(const std::vector<Vec3d>& points, int axis, double center, double distance) {
+  constexpr int kSteps = 6;
+  for (int step = 0; step < kSteps; ++step) {
+    double lowest = Aabb::kInf, highest = -Aabb::kInf;
+    for (const Vec3d& p : points) {
+      const double at = (p[axis] - center) / (p.z + distance);
+      lowest = std::min(lowest, at), highest = std::max(highest, at);
+    }
+    center += 0.5 * (lowest + highest) * distance;
+  }
+  return center;
+}
+
 /// Boxes of at most about kMaxBoxes primitives, evenly chosen.
 std::vector<Aabb> sample_boxes(const Scene& scene) {
-  constexpr std::uint32_t kMaxBoxes = 200000;
+  constexpr std::uint32_t kMaxBoxes = 50000;
   const std::uint32_t step = 1 + scene.size() / kMaxBoxes;
   std::vector<Aabb> boxes;
   for (std::uint64_t i = 0; i < scene.size(); i += step)
@@ -75,23 +90,26 @@ View frame_boxes(std::span<const Aabb> boxes, const Vec3d& forward, const Vec3d&
   View view{Vec3d() - normalized(forward), {}, up, fov_degrees, width, height};
   const Camera camera(view);
 
-  const double slope = std::tan(fov_degrees * (std::numbers::pi / 360.0)) / kRoom;
-  Fan across(slope * width / height), upwards(slope);
+  std::vector<Vec3d> points;  // right, up, forward from the middle
   for (const Aabb& box : boxes) {
     for (int corner = 0; corner < 8 && !box.is_empty(); ++corner) {
       const Vec3d p = corner_of(box, corner) - middle;
-      const double z = dot(p, camera.forward());
-      across.add(dot(p, camera.right()), z);
-      upwards.add(dot(p, camera.up()), z);
+      points.push_back({dot(p, camera.right()), dot(p, camera.up()), dot(p, camera.forward())});
     }
   }
-  const bool is_point = whole.is_empty() || whole.lo == whole.hi;
+  const double slope = std::tan(fov_degrees * (std::numbers::pi / 360.0)) / kRoom;
+  Fan across(slope * width / height), upwards(slope);
+  for (const Vec3d& p : points) {
+    across.add(p.x, p.z);
+    upwards.add(p.y, p.z);
+  }
   view.at = middle;
-  if (!is_point)
-    view.at = middle + across.center() * camera.right() + upwards.center() * camera.up();
-  // A single point can be seen from anywhere.
-  const double distance =
-      is_point ? 1.0 + norm_max(middle) : std::max(across.distance(), upwards.distance());
+  double distance = 1.0 + norm_max(middle);  // a single point can be seen from anywhere
+  if (!whole.is_empty() && whole.lo != whole.hi) {
+    distance = std::max(across.distance(), upwards.distance());
+    view.at = middle + balanced(points, 0, across.center(), distance) * camera.right() +
+              balanced(points, 1, upwards.center(), distance) * camera.up();
+  }
   view.from = view.at - distance * camera.forward();
   return view;
 }
