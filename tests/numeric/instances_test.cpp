@@ -105,7 +105,7 @@ void expect_rational_hits(const Case& c) {
       std::sort(ids.begin(), ids.end()), std::sort(expected.begin(), expected.end());
       ASSERT_EQ(ids, expected) << "ray " << i;
     }
-    EXPECT_GT(found, c.rays.size() / 10);
+    EXPECT_GT(found, 20u);
   }
 }
 
@@ -113,7 +113,7 @@ void expect_rational_hits(const Case& c) {
 void expect_bits_of_brute_force(const Case& c) {
   const auto brute = build(c.scene, "brute_force");
   const AllHits expected = all_hits(*brute, make_batch(c.rays));
-  EXPECT_GT(expected.hits.size(), c.rays.size() / 10);
+  EXPECT_GT(expected.hits.size(), 100u);
   for (const auto& structure : build_all(c.scene)) {
     SCOPED_TRACE(structure->spec());
     const AllHits all = all_hits(*structure, make_batch(c.rays));
