@@ -62,10 +62,7 @@ class KdPolicy {
     const std::size_t count = work.fragments.size();
     if (count >= kCheckEvery) check_progress();
     if (count <= static_cast<std::size_t>(options_.max_leaf) || depth >= max_depth_) return {};
-    const PlaneCost cost(work.cell, cost_, options_.empty_bonus);
-    if (options_.split == KdSplit::middle || options_.split == KdSplit::median)
-      return find_simple_plane(work, cost, depth);
-    const SplitPlane plane = find_plane(work, cost);
+    const SplitPlane plane = find_plane(work, depth);
     if (!plane.is_found()) return {};
     if (plane.cost >= sah_leaf_cost(cost_, count) && !may_split_badly(work, plane)) return {};
     return plane;
@@ -157,22 +154,31 @@ class KdPolicy {
     return divides && count >= kWorthABadSplit && ++work.bad_splits <= options_.bad_splits;
   }
 
-  /// The other axes are tried in turn where the first has no room or would divide nothing.
-  std::optional<SplitPlane> find_simple_plane(const Work& work, const PlaneCost& cost,
-                                              int depth) const {
-    const int first = options_.axis == KdAxis::longest ? work.cell.longest_axis() : depth;
-    const auto find =
-        options_.split == KdSplit::middle ? find_plane_at_middle : find_plane_at_median;
-    for (int i = 0; i < 3; ++i) {
-      const SplitPlane plane =
-          find(work.fragments, cost, static_cast<std::size_t>((first + i) % 3));
-      if (plane.is_found()) return plane;
+  SplitPlane find_plane(Work& work, int depth) {
+    const PlaneCost cost(work.cell, cost_, options_.empty_bonus);
+    switch (options_.split) {
+      case KdSplit::middle:
+        return find_on_some_axis(find_plane_at_middle, work, cost, depth);
+      case KdSplit::median:
+        return find_on_some_axis(find_plane_at_median, work, cost, depth);
+      default:
+        return find_cheapest_plane(work, cost);
     }
-    return {};
+  }
+
+  /// The other axes are tried in turn where the first has no room or would divide nothing.
+  template <class Find>
+  SplitPlane find_on_some_axis(Find find, const Work& work, const PlaneCost& cost,
+                               int depth) const {
+    const int first = options_.axis == KdAxis::longest ? work.cell.longest_axis() : depth;
+    SplitPlane plane;
+    for (int i = 0; i < 3 && !plane.is_found(); ++i)
+      plane = find(work.fragments, cost, static_cast<std::size_t>((first + i) % 3));
+    return plane;
   }
 
   /// Sorts the ends of the fragments when the node is the first one on its path to be swept.
-  SplitPlane find_plane(Work& work, const PlaneCost& cost) {
+  SplitPlane find_cheapest_plane(Work& work, const PlaneCost& cost) {
     const std::size_t count = work.fragments.size();
     if (!work.has_events && count > sweep_limit_)
       return find_plane_by_bins(work.fragments, cost, options_.bins, context_.executor);
