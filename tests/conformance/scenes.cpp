@@ -238,7 +238,7 @@ std::vector<NamedScene> make_list() {
          return single(box_soup({-1, -1, -1}, {1, 1, 1}).geometry<float>());
        },
        true},
-      {"identical", [] { return copies_of_one(1000); }, false},
+      {"identical", [] { return copies_of_one(200); }, false},
       {"lattice_of_walls", [] { return lattice_of_walls(1.0, 0.0); }, false},
       {"lattice_off_grid", [] { return lattice_of_walls(0.1, 1000.1); }, false},
       {"tiles_off_the_grid", tiles_off_the_grid, false},
