@@ -8,8 +8,8 @@
 int main() {
   strahl::SceneData data;
   data.geometries.emplace_back();
-  data.geometries[0].mesh = strahl::make_mesh(
-      std::vector<strahl::Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+  data.geometries[0].mesh =
+      strahl::make_mesh(std::vector<strahl::Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
   const auto scene = std::make_shared<const strahl::Scene>(std::move(data));
   const auto accelerator = strahl::build(scene, "bvh");
 
