@@ -20,7 +20,8 @@ SEARCH = [ROOT / "src", ROOT]
 INCLUDE = re.compile(r"^\s*#\s*include\s*<([^>]+)>", re.MULTILINE)
 COMPILER = os.environ.get("CXX", "g++")
 FLAGS = ["-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Wconversion", "-Wshadow",
-         "-Wpedantic", "-Werror", "-DSTRAHL_SHARED_DEFAULT=\"shared\"", "-DSTRAHL_SOURCE_DIR=\".\""]
+         "-Wpedantic", "-Werror", "-DSTRAHL_SHARED_DEFAULT=\"shared\"", "-DSTRAHL_SOURCE_DIR=\".\"",
+         "-DSTRAHL_CLI_PATH=\"strahl\""]
 
 
 def closure(header):
