@@ -31,6 +31,7 @@ struct CellWork {
   SweepLists events;
   bool has_events = false;
   int bad_splits = 0;  ///< splits on the way here that cost more than a leaf
+  double spare = 0.0;  ///< references that planes may still add below this cell
   MemoryLease lease;
 };
 
@@ -55,6 +56,7 @@ class KdPolicy {
     work.lease = MemoryLease(meter_, refs.size() * (sizeof(PrimRef) + sizeof(Fragment)));
     work.cell = box;
     work.fragments = make_fragments(refs);
+    work.spare = (options_.max_growth - 1.0) * static_cast<double>(refs.size());
     return work;
   }
 
@@ -65,6 +67,7 @@ class KdPolicy {
     const SplitPlane plane = find_plane(work, depth);
     if (!plane.is_found()) return {};
     if (plane.cost >= sah_leaf_cost(cost_, count) && !may_split_badly(work, plane)) return {};
+    if (static_cast<double>(added_by(plane, count)) > work.spare) return {};
     return plane;
   }
 
@@ -80,8 +83,14 @@ class KdPolicy {
     const MemoryLease places(meter_, work.has_events ? 8 * work.fragments.size() : 0);
     const MemoryLease growing(meter_, halves_count * sizeof(Fragment));
     FragmentHalves halves = divide_fragments(work.fragments, work.cell, plane, rules);
-    return {make_half(work, below(work.cell, plane), std::move(halves.left)),
-            make_half(work, above(work.cell, plane), std::move(halves.right))};
+    std::pair<Work, Work> both{make_half(work, below(work.cell, plane), std::move(halves.left)),
+                               make_half(work, above(work.cell, plane), std::move(halves.right))};
+    const double spare = work.spare - static_cast<double>(added_by(plane, work.fragments.size()));
+    const double left_share =
+        static_cast<double>(plane.left_count) / static_cast<double>(halves_count);
+    both.first.spare = spare * left_share;
+    both.second.spare = spare * (1.0 - left_share);
+    return both;
   }
 
   void leaf(Work&& given, Output& out) {
@@ -129,6 +138,11 @@ class KdPolicy {
     if (options.split == KdSplit::sah_sweep) return kMaxSweepFragments;
     if (options.split == KdSplit::automatic) return kAutoSweepLimit;
     return static_cast<std::size_t>(options.bins);  // so few have no more ends than there are bins
+  }
+
+  /// References gained where the plane cuts `count` fragments into two halves.
+  static std::size_t added_by(const SplitPlane& plane, std::size_t count) {
+    return plane.left_count + plane.right_count - count;
   }
 
   [[noreturn]] static void refuse_size() {

@@ -61,6 +61,8 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
              "depth of leaves at most; 0: 8 + 1.3 log2 of the primitives"),
       option("bad_splits", &O::bad_splits, 0, 8,
              "planes on a path that may cost more than a leaf of 16 primitives or more"),
+      option("max_growth", &O::max_growth, 1.0, 1000000.0,
+             "references per primitive at most; cells share what is left by their contents"),
   };
 }
 

@@ -40,6 +40,7 @@ struct KdTreeOptions {
   int max_leaf = 1;
   int max_depth = 0;
   int bad_splits = 2;
+  double max_growth = 32.0;
 };
 
 OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*);

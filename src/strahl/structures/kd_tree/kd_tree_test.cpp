@@ -281,6 +281,22 @@ TEST(KdTree, ReportsWhatItBuilt) {
   EXPECT_LT(report.sah_cost, build(scene, "kd_tree:max_depth=4")->report().sah_cost);
 }
 
+TEST(KdTree, KeepsReferencesWithinTheGivenGrowth) {
+  MeshMaker mesh;  // large overlapping triangles in one plane, which planes cut at no expected cost
+  Rng rng(17);
+  const auto point = [&] { return Vec3d{rng.uniform(), rng.uniform(), 0.5}; };
+  for (int i = 0; i < 200; ++i) mesh.triangle(point(), point(), point());
+  const ScenePtr scene = mesh.scene();
+  for (const auto& [spec, most] :
+       {std::pair("kd_tree:max_growth=1", 200u), std::pair("kd_tree:max_growth=4", 800u),
+        std::pair("kd_tree", 6400u)}) {
+    const auto tree = build(scene, spec);
+    EXPECT_NO_THROW(tree->validate());
+    EXPECT_LE(tree->report().references, most);
+    EXPECT_GE(tree->report().references, most / 2);
+  }
+}
+
 TEST(KdTree, ClippingSparesReferences) {
   const ScenePtr scene = soup(500, 0.3, 13).scene();
   const auto clipped = build(scene, "kd_tree"), boxed = build(scene, "kd_tree:clip=off");
@@ -292,7 +308,7 @@ TEST(KdTree, KeepsToTheMemoryLimit) {
   BuildContext context;
   context.memory_limit = 2'000'000;
   try {
-    build(scene, "kd_tree:intersect_cost=1000,bad_splits=8", context);
+    build(scene, "kd_tree:intersect_cost=1000,bad_splits=8,max_growth=10000", context);
     ADD_FAILURE() << "built beyond the limit";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::resource);
