@@ -138,7 +138,7 @@ class QueryRun {
     const OwnsOutput owns_output;
     NpzWriter file(options_.output);
     add_arrays(file);
-    file.close();
+    file.close(context_.progress);
   }
 
   const Accelerator& accelerator_;

@@ -144,6 +144,43 @@ TEST_P(FloatEnvironment, OfTheCallerChangesNoAnswerOfInstances) {
   expect_answers_do_not_change(turned_scene(), GetParam());
 }
 
+/// What a program sees that makes its scenes and asks for surfaces in its own environment.
+TEST_P(FloatEnvironment, OfTheCallerChangesNoSceneAndNoSurface) {
+  const auto scene = turned_scene();
+  const std::vector<Ray> rays = sensitive_rays(*scene);
+  const auto structure = build(scene, "brute_force");
+  const std::vector<Hit> hits = closest_hits(*structure, make_batch(rays));
+  std::vector<HitSurface> expected, got;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    expected.push_back(surface_at(*scene, rays[i], hits[i]));
+  std::vector<Hit> hits_of_other;
+  const SceneData data = scene->data();
+  {
+    const HostileEnvironment environment(GetParam());
+    const auto other = std::make_shared<const Scene>(data);
+    hits_of_other = closest_hits(*build(other, "brute_force"), make_batch(rays));
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      got.push_back(surface_at(*scene, rays[i], hits[i]));
+  }
+  EXPECT_TRUE(same_bits(hits_of_other, hits));
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    ASSERT_TRUE(test::same_bits(got[i], expected[i])) << "ray " << i;
+}
+
+/// Hashes and checks taken in the caller's environment; a grid hashes computed planes.
+TEST_P(FloatEnvironment, OfTheCallerChangesNoTreeHashAndNoValidation) {
+  for (const auto& structure : build_all(turned_scene())) {
+    const std::uint64_t expected = structure->tree_hash();
+    std::uint64_t got = 0;
+    {
+      const HostileEnvironment environment(GetParam());
+      got = structure->tree_hash();
+      EXPECT_NO_THROW(structure->validate());
+    }
+    EXPECT_EQ(got, expected) << structure->spec();
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Roundings, FloatEnvironment,
                          testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO),
                          [](const testing::TestParamInfo<int>& i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <strahl/base/fp_env.h>
 #include <strahl/base/hash.h>
 #include <strahl/base/timer.h>
 #include <strahl/catalog/accelerator.h>
@@ -37,8 +38,12 @@ class Erased final : public Accelerator {
     report_ = structure_.report();
     report_.seconds = seconds;
   }
-  void validate() const override { structure_.validate(*scene_); }
+  void validate() const override {
+    const FpEnvGuard environment;
+    structure_.validate(*scene_);
+  }
   std::uint64_t tree_hash() const override {
+    const FpEnvGuard environment;
     Hash64 hash;
     structure_.hash_into(hash);
     return hash.digest();

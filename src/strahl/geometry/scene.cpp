@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <strahl/base/error.h>
+#include <strahl/base/fp_env.h>
 #include <strahl/base/hash.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/geometry/triangle.h>
@@ -91,6 +92,7 @@ double translation_norm(const Affine& a) {
 }  // namespace
 
 Scene::Scene(SceneData data) : data_(std::move(data)) {
+  const FpEnvGuard environment;
   if (data_.instances.empty() && !data_.geometries.empty())
     data_.instances.push_back({0, static_cast<std::uint32_t>(data_.geometries.size()), {}, 0});
   check_geometries();

@@ -173,6 +173,17 @@ int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, do
   return exact_edge_sign(ray.org, ray.dir, p, q);
 }
 
+std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const TriangleVertices& tri,
+                                               const Vec3d& edge_values) {
+  const int ab = edge_sign(ray, tri.a, tri.b, edge_values.x);
+  const int ca = edge_sign(ray, tri.c, tri.a, edge_values.y);
+  if (ab != ca || ab == 0) return std::nullopt;
+  if (edge_sign(ray, tri.b, tri.c, edge_values.z) != ab) return std::nullopt;
+  const std::optional<double> t = crossing_t(ray, tri, tri.a - ray.org);
+  if (!t) return std::nullopt;
+  return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
+}
+
 std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {
   const double denominator = rounded_denominator(dir, tri);
   const double numerator = rounded_numerator(org, tri);

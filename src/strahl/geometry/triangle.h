@@ -15,6 +15,7 @@
 // Thread safety: pure functions. Needs round-to-nearest (see base/fp_env.h).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -74,22 +75,33 @@ inline std::optional<double> crossing_t(const PreparedRay& ray, const TriangleVe
   const double numerator = dot(A, n), denominator = dot(ray.dir, n);
   // 2^42 * 9 u * 2 |ab| |ac|: what |numerator| / |A|_1 and |denominator| / |dir|_1 must exceed.
   const double needed = 18 * 0x1p-11 * norm_max(ab) * norm_max(ac);
-  if (std::abs(numerator) > needed * norm1(A) && std::abs(denominator) > needed * norm1(ray.dir))
+  if ((std::abs(numerator) > needed * norm1(A)) & (std::abs(denominator) > needed * norm1(ray.dir)))
     return numerator / denominator;
   return exact_t(ray.org, ray.dir, tri);
 }
 
+/// intersect() where a sign of the three edge values (of ab, ca, bc) is uncertain.
+std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const TriangleVertices& tri,
+                                               const Vec3d& edge_values);
+
 /// The crossing of the ray's whole line with the triangle, if any; the caller checks the interval.
+/// Without a branch per sign: signs are as good as random, and a mispredicted branch costs more
+/// than the third edge of a triangle that the first two already rule out. The vertices must be
+/// finite.
 inline std::optional<TriangleHit> intersect(const PreparedRay& ray, const TriangleVertices& tri) {
   const Vec3d A = tri.a - ray.org, B = tri.b - ray.org, C = tri.c - ray.org;
   const Vec3d dir_a = cross(ray.dir, A);
-  const int ab = edge_sign(ray, tri.a, tri.b, dot(dir_a, B));
-  const int ca = edge_sign(ray, tri.c, tri.a, -dot(dir_a, C));
-  if (ab != ca || ab == 0) return std::nullopt;
-  if (edge_sign(ray, tri.b, tri.c, dot(cross(ray.dir, B), C)) != ab) return std::nullopt;
+  const Vec3d e{dot(dir_a, B), -dot(dir_a, C), dot(cross(ray.dir, B), C)};
+  const double least = std::min(std::min(e.x, e.y), e.z), most = std::max(std::max(e.x, e.y), e.z);
+  const bool is_back = least > ray.edge_error, is_front = most < -ray.edge_error;
+  if (!(is_back | is_front)) {
+    // Two certain signs that differ settle it whatever the third one is.
+    if ((least < -ray.edge_error) & (most > ray.edge_error)) return std::nullopt;
+    return intersect_uncertain(ray, tri, e);
+  }
   const std::optional<double> t = crossing_t(ray, tri, A);
   if (!t) return std::nullopt;
-  return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
+  return TriangleHit{*t + 0.0, is_front};  // -0 + 0 is +0
 }
 
 }  // namespace strahl

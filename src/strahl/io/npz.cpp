@@ -54,10 +54,20 @@ void NpzWriter::add(const std::string& name, const NpyArrayRef& array) {
   }
 }
 
-void NpzWriter::close() {
+void NpzWriter::close(const Progress& progress) {
   if (headers_.empty()) throw Error(ErrorCode::usage, "no arrays to write", which_);
-  if (zip_close(archive_.get()) != 0)
-    fail("cannot write: " + std::string(zip_strerror(archive_.get())));
+  if (progress) {
+    // libzip asks between blocks; a callback of C must not let an exception pass.
+    const auto is_cancelled = [](zip_t*, void* asked) noexcept -> int {
+      return (*static_cast<const Progress*>(asked))(1.0, "writing") ? 0 : 1;
+    };
+    void* asked = const_cast<Progress*>(&progress);
+    zip_register_cancel_callback_with_state(archive_.get(), is_cancelled, nullptr, asked);
+  }
+  const bool failed = zip_close(archive_.get()) != 0;
+  if (failed && zip_error_code_zip(zip_get_error(archive_.get())) == ZIP_ER_CANCELLED)
+    throw Error(ErrorCode::cancelled, "cancelled", which_);
+  if (failed) fail("cannot write: " + std::string(zip_strerror(archive_.get())));
   static_cast<void>(archive_.release());  // zip_close has freed it
   file_.commit();
 }

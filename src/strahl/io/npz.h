@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include <strahl/base/build_context.h>
 #include <strahl/io/atomic_file.h>
 #include <strahl/io/npy.h>
 
@@ -29,9 +30,10 @@ class NpzWriter {
   void add(const std::string& name, const NpyArrayRef& array);
 
   /// Writes everything; the file appears under its name now. Without it nothing is written.
-  /// Throws Error{usage} when nothing was added.
+  /// @param progress asked again and again while bytes are copied, if not empty
+  /// Throws Error{usage} when nothing was added, Error{cancelled} when progress returns false.
   /// Throws Error{resource}; whatever was under the name before is then untouched.
-  void close();
+  void close(const Progress& progress = {});
 
  private:
   struct Discard {

@@ -127,5 +127,23 @@ TEST(Npz, RefusesAnArchiveWithoutArrays) {
   EXPECT_EQ(folder.count(), 0);
 }
 
+TEST(Npz, CancellingLeavesNoFile) {
+  const TempFolder folder;
+  const std::vector<double> values(1 << 20, 1.5);
+  {
+    NpzWriter writer(folder / "cancelled.npz");
+    writer.add("values", npy_array(std::span(values)));
+    int asked = 0;
+    try {
+      writer.close([&](double, std::string_view) { return ++asked < 3; });
+      FAIL() << "was not cancelled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::cancelled);
+    }
+    EXPECT_EQ(asked, 3);
+  }
+  EXPECT_EQ(folder.count(), 0);
+}
+
 }  // namespace
 }  // namespace strahl

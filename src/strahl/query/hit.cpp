@@ -1,3 +1,4 @@
+#include <strahl/base/fp_env.h>
 #include <strahl/geometry/triangle.h>
 #include <strahl/query/hit.h>
 #include <strahl/query/scene_visitor.h>
@@ -23,6 +24,7 @@ HitSurface object_surface(const Geometry& geometry, std::uint32_t prim, const Ra
 
 HitSurface surface_at(const Scene& scene, const Ray& ray, const Hit& hit) {
   if (!hit.is_hit()) return {};
+  const FpEnvGuard environment;
   const Part& part = scene.part_of(hit.reference);
   const Geometry& geometry = scene.geometries()[part.geometry];
   const std::uint32_t prim = hit.reference - part.first_reference;

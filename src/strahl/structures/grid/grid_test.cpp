@@ -6,6 +6,7 @@
 
 #include <strahl/base/rng.h>
 #include <strahl/catalog/catalog.h>
+#include <strahl/geometry/triangle.h>
 #include <strahl/structures/grid/grid.h>
 
 namespace strahl {
@@ -158,16 +159,61 @@ TEST(Grid, AFartherHitFoundFirstDoesNotHideANearerOne) {
   EXPECT_TRUE(is_same_hit(hits[0], expected[0]));
 }
 
-TEST(Grid, KeepsTiesAcrossABorderOfCells) {
-  // Two coincident triangles in the plane between two cells, the lower id last in every list's
-  // order of discovery: whichever cell is first, the tie must go to the lower id.
-  const UniformCells cells({{0, 0, 0}, {2, 1, 1}}, {2, 1, 1});
-  const double x = cells.plane(0, 1);
-  std::vector<Vec3d> vertices{{x, 0, 0}, {x, 1, 0}, {x, 0, 1}, {x, 0, 0}, {x, 1, 0}, {x, 0, 1},
-                              {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0}, {2, 1, 0}, {2, 1, 1}};
-  const ScenePtr scene = scene_of(vertices);
-  const std::vector<Ray> rays{{{0.5, 0.2, 0.2}, {1, 0, 0}}, {{1.5, 0.2, 0.2}, {-1, 0, 0}}};
-  expect_same_answers(scene, rays, "grid:resolution=fixed,nx=2,ny=1,nz=1");
+/// A ray and a triangle beyond the plane x = p that it grazes, hit by its rounded t before p.
+struct GrazedBeyondPlane {
+  Ray ray;
+  TriangleVertices triangle;
+  double t_hit = Aabb::kInf, t_plane = 0.0;
+};
+
+GrazedBeyondPlane find_grazed(double p) {
+  Rng rng(20);
+  const double beyond = std::nextafter(p, 2 * p);
+  for (int tries = 0; tries < 1000000; ++tries) {
+    GrazedBeyondPlane g;
+    const double turn = rng.uniform(0, 3), y = rng.uniform(-0.1, 0.1);
+    const Vec3d edge_point{beyond, y, rng.uniform(-0.1, 0.1)};
+    const Vec3d edge{0, std::cos(turn), std::sin(turn)};
+    g.ray.dir = Vec3d{1, 0.2, 0.2} + random_point(rng, 1.0);
+    const Vec3d aside = random_point(rng, 0.05);
+    g.triangle = {edge_point - edge, edge_point + edge, edge_point + 0.5 * g.ray.dir + aside};
+    g.ray.org = edge_point - 0.75 * g.ray.dir;
+    if (g.ray.dir.x < 0.2 || g.triangle.c.x <= beyond) continue;
+    const PreparedRay prepared(g.ray, {Aabb{{0, -5, -5}, {2, 5, 5}}});
+    const auto hit = intersect(prepared, g.triangle);
+    g.t_plane = prepared.plane_first(0, p);
+    if (!hit || hit->t >= lowered(g.t_plane, 0x1p-48)) continue;
+    g.t_hit = hit->t;
+    return g;
+  }
+  return {};
+}
+
+TEST(Grid, LooksIntoACellThatBeginsBeyondTheBestHitByLessThanTheErrorOfT) {
+  const double p = UniformCells({{0, -5, -5}, {2, 5, 5}}, {2, 1, 1}).plane(0, 1);
+  const GrazedBeyondPlane g = find_grazed(p);
+  ASSERT_LT(g.t_hit, g.t_plane);
+  // A wall before the plane, hit between the rounded t of the grazed triangle and the plane.
+  const double t_wall = 0.5 * (g.t_hit + g.t_plane), x = g.ray.org.x + t_wall * g.ray.dir.x;
+  const TriangleVertices& t = g.triangle;
+  const ScenePtr scene = scene_of({t.a,
+                                   t.b,
+                                   t.c,
+                                   {x, -3, -3},
+                                   {x, 3, -3},
+                                   {x, 0, 3},  //
+                                   {0, -5, -5},
+                                   {2, 5, -5},
+                                   {2, -5, -5},
+                                   {0, 5, 5},
+                                   {2, 5, 5},
+                                   {0, -5, 5}});
+  std::vector<Hit> hits(1), expected(1);
+  build(scene, "brute_force")->closest_hit(make_batch(std::vector<Ray>{g.ray}), expected);
+  ASSERT_EQ(expected[0].id.prim, 0u);
+  build(scene, "grid:resolution=fixed,nx=2,ny=1,nz=1")
+      ->closest_hit(make_batch(std::vector<Ray>{g.ray}), hits);
+  EXPECT_TRUE(is_same_hit(hits[0], expected[0]));
 }
 
 TEST(Grid, AnOutlierDoesNotMakeItLarge) {
