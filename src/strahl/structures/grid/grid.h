@@ -27,7 +27,7 @@ enum class GridResolution { woo, cubic, fixed };
 /// README.md says how the defaults were measured.
 struct GridOptions {
   GridResolution resolution = GridResolution::cubic;
-  double density = 5.0;
+  double density = 4.0;
   int nx = 16, ny = 16, nz = 16;
   bool exact = true;
   bool mailbox = true;
