@@ -90,6 +90,9 @@ Ray make_ray(std::size_t kind, Targets& targets, Rng& rng) {
     case 14:  // tiny and huge directions
       return {targets.in_box(2.0),
               targets.direction() * std::ldexp(1.0, static_cast<int>(rng.below(120)) - 60)};
+    case 15:  // axis-parallel through a corner from very far: only widened boxes are met for sure
+      return {t.c - axis_vector(axis, sign * std::ldexp(1e9, static_cast<int>(rng.below(11)))),
+              axis_vector(axis, sign)};
     default:
       return towards(targets.in_box(3.0), targets.in_box(1.0));
   }
@@ -116,7 +119,7 @@ RayBatch RaySet::batch(bool filtered) const {
 }
 
 RaySet adversarial_rays(const Scene& scene, std::size_t count, std::uint64_t seed) {
-  constexpr std::size_t kKinds = 16;
+  constexpr std::size_t kKinds = 17;
   Rng rng(seed);
   Targets targets(scene, rng);
   RaySet set;

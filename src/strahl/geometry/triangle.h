@@ -75,8 +75,9 @@ inline std::optional<double> crossing_t(const PreparedRay& ray, const TriangleVe
   const double numerator = dot(A, n), denominator = dot(ray.dir, n);
   // 2^42 * 9 u * 2 |ab| |ac|: what |numerator| / |A|_1 and |denominator| / |dir|_1 must exceed.
   const double needed = 18 * 0x1p-11 * norm_max(ab) * norm_max(ac);
-  if ((std::abs(numerator) > needed * norm1(A)) & (std::abs(denominator) > needed * norm1(ray.dir)))
-    return numerator / denominator;
+  const bool numerator_is_certain = std::abs(numerator) > needed * norm1(A);
+  const bool denominator_is_certain = std::abs(denominator) > needed * norm1(ray.dir);
+  if (numerator_is_certain & denominator_is_certain) return numerator / denominator;
   return exact_t(ray.org, ray.dir, tri);
 }
 
@@ -96,7 +97,9 @@ inline std::optional<TriangleHit> intersect(const PreparedRay& ray, const Triang
   const bool is_back = least > ray.edge_error, is_front = most < -ray.edge_error;
   if (!(is_back | is_front)) {
     // Two certain signs that differ settle it whatever the third one is.
-    if ((least < -ray.edge_error) & (most > ray.edge_error)) return std::nullopt;
+    const bool has_front = least < -ray.edge_error;
+    const bool has_back = most > ray.edge_error;
+    if (has_front & has_back) return std::nullopt;
     return intersect_uncertain(ray, tri, e);
   }
   const std::optional<double> t = crossing_t(ray, tri, A);
