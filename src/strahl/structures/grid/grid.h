@@ -68,7 +68,8 @@ class Grid {
 
   template <class Prims, class Q, class C>
   void visit_cells(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    dda(cells_, ray, [&](const CellVisit& cell) {
+    // Named captures: with [&] their order would depend on whether counters are called.
+    dda(cells_, ray, [this, &prims, &ray, &query, &counters](const CellVisit& cell) {
       if (!may_hit_before(cell.t_enter, query.t_max())) return kStopCells;
       counters.traversal_step();
       return test_leaf(lists_[cell.index], prims, ray, query, counters) ? kStopCells : 1;
