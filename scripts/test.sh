@@ -85,6 +85,7 @@ if [ $full = no ]; then
     run_preset asan-ubsan '^strahl_test_(base|math|geometry|io|catalog)$'
 else
   step "address and undefined-behaviour sanitizers" run_preset asan-ubsan
+  step "conformance, whole matrix" env STRAHL_CONFORMANCE=full ctest --preset release -R conformance
   step "dev build and tests (g++)" run_preset dev
   step "release build and tests (clang)" run_preset clang
   step "dev build and tests (clang)" run_preset clang-dev

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <sstream>
+#include <stdexcept>
+#include <string_view>
 #include <tests/conformance/oracle.h>
 
 namespace strahl::test {
@@ -110,6 +113,33 @@ std::string first_difference(const Answers& got, const Answers& expected) {
   for (const Side s : got.sides) a.push_back(static_cast<int>(s));
   for (const Side s : expected.sides) b.push_back(static_cast<int>(s));
   return differing_number("side", a, b);
+}
+
+Expected expected_answers(const std::shared_ptr<const Scene>& scene, std::size_t rays,
+                          std::uint64_t seed) {
+  Expected e{adversarial_rays(*scene, rays, seed + rays), {}};
+  const auto oracle = build(scene, "brute_force");
+  std::vector<Hit> first(e.set.rays.size());
+  oracle->closest_hit(e.set.batch(false), first);
+  bind_filters(e.set, first, seed);
+  e.answers = ask(*oracle, e.set, {});
+  return e;
+}
+
+std::string first_difference(const std::shared_ptr<const Scene>& scene, const std::string& spec,
+                             const Expected& expected) {
+  const auto accelerator = build(scene, spec);
+  try {
+    accelerator->validate();
+  } catch (const std::logic_error& broken) {
+    return broken.what();
+  }
+  return first_difference(ask(*accelerator, expected.set, {}), expected.answers);
+}
+
+bool is_full_matrix() {
+  const char* mode = std::getenv("STRAHL_CONFORMANCE");
+  return mode != nullptr && std::string_view(mode) == "full";
 }
 
 }  // namespace strahl::test

@@ -1,6 +1,7 @@
 // tests/conformance/oracle.h - all answers of one accelerator, and their bitwise comparison.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <tests/conformance/rays.h>
 
@@ -24,6 +25,21 @@ Answers ask(const Accelerator& accelerator, const RaySet& set, const BuildContex
 
 /// Empty when all answers have the same bits; else what differs first.
 std::string first_difference(const Answers& got, const Answers& expected);
+
+/// Rays for a scene and what brute force says to them.
+struct Expected {
+  RaySet set;
+  Answers answers;
+};
+Expected expected_answers(const std::shared_ptr<const Scene>& scene, std::size_t rays,
+                          std::uint64_t seed);
+
+/// Builds the structure, validates it and asks it all. Empty when it answers as expected.
+std::string first_difference(const std::shared_ptr<const Scene>& scene, const std::string& spec,
+                             const Expected& expected);
+
+/// Whether the whole matrix is asked for: STRAHL_CONFORMANCE=full.
+bool is_full_matrix();
 
 /// The bits of a hit that are part of the contract.
 bool have_same_bits(const Hit& a, const Hit& b);

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <sstream>
 #include <tests/conformance/variants.h>
@@ -25,59 +27,141 @@ std::string as_value(const OptionInfo& info, double value) {
   return text.str();
 }
 
-/// All words of an enum or switch; of a number its minimum and one value on each side of the
-/// default, never beyond 1000 times it, as a legal maximum may be meant for other scenes.
-std::vector<std::string> values_of(const OptionInfo& info) {
-  std::set<std::string> values(info.values.begin(), info.values.end());
-  if (!info.min.empty()) {
-    const double lo = number(info.min), standard = number(info.default_value);
-    const double hi = std::min(number(info.max), 1000 * std::max(standard, 1.0));
-    values = {as_value(info, lo), as_value(info, between(std::max(lo, standard / 64), standard)),
-              as_value(info, std::min(hi, between(standard, hi)))};
-  }
-  values.erase(info.default_value);
-  return {values.begin(), values.end()};
+/// An option and the values to try, the default first.
+struct Axis {
+  std::string name;
+  std::vector<std::string> values;
+  bool is_number;
+};
+
+/// Numbers never go beyond 1000 times the default: a legal maximum may be meant for other scenes.
+std::vector<std::string> numbers_of(const OptionInfo& info) {
+  const double lo = number(info.min), standard = number(info.default_value);
+  const double hi = std::min(number(info.max), 1000 * std::max(standard, 1.0));
+  return {as_value(info, lo), as_value(info, between(std::max(lo, standard / 64), standard)),
+          as_value(info, std::min(hi, between(standard, hi)))};
 }
 
-std::string assignment(const OptionInfo& info, const std::string& value) {
-  return info.name + "=" + value;
+std::vector<Axis> axes_of(const StructureEntry& entry) {
+  std::vector<Axis> axes;
+  for (const OptionInfo& info : entry.options()) {
+    Axis axis{info.name, {info.default_value}, !info.min.empty()};
+    for (const std::string& value : axis.is_number ? numbers_of(info) : info.values)
+      if (std::find(axis.values.begin(), axis.values.end(), value) == axis.values.end())
+        axis.values.push_back(value);
+    axes.push_back(std::move(axis));
+  }
+  return axes;
 }
+
+/// Chosen value per axis; kOpen where none is chosen yet.
+using Row = std::vector<std::size_t>;
+constexpr std::size_t kOpen = ~std::size_t{0};
+
+std::string spec_of(const StructureEntry& entry, const std::vector<Axis>& axes, const Row& row) {
+  std::string options;
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (row[i] != 0)
+      options += (options.empty() ? "" : ",") + axes[i].name + "=" + axes[i].values[row[i]];
+  return canonical_spec(entry.name, options);
+}
+
+/// Up to four (axis, value) choices, 16 bits each, by ascending axis.
+using Tuple = std::uint64_t;
+Tuple with(Tuple tuple, std::size_t axis, std::size_t value) {
+  return tuple << 16 | static_cast<Tuple>((axis + 1) << 8 | value);
+}
+
+/// Finds the rows of a covering array one by one.
+class Coverage {
+ public:
+  Coverage(const std::vector<Axis>& axes, std::size_t strength)
+      : axes_(axes), strength_(std::min(strength, axes.size())) {
+    add_missing(0, 0, 0);
+  }
+  bool is_complete() const { return missing_.empty(); }
+
+  /// A row that begins with a missing tuple and takes, axis by axis, what covers most others.
+  Row next_row() {
+    Row row(axes_.size(), kOpen);
+    for (Tuple rest = *missing_.begin(); rest != 0; rest >>= 16)
+      row[(rest >> 8 & 0xff) - 1] = rest & 0xff;
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (row[i] == kOpen) row[i] = best_value(row, i);
+    visit(row, 0, 0, 0, [this](Tuple tuple) { missing_.erase(tuple); });
+    return row;
+  }
+
+ private:
+  void add_missing(std::size_t axis, std::size_t chosen, Tuple tuple) {
+    if (chosen == strength_) {
+      if (strength_ > 0) missing_.insert(tuple);
+      return;
+    }
+    for (; axis < axes_.size(); ++axis)
+      for (std::size_t value = 0; value < axes_[axis].values.size(); ++value)
+        add_missing(axis + 1, chosen + 1, with(tuple, axis, value));
+  }
+  std::size_t best_value(Row row, std::size_t axis) const {
+    std::size_t best = 0, best_gain = 0;
+    for (std::size_t value = 0; value < axes_[axis].values.size(); ++value) {
+      row[axis] = value;
+      std::size_t gain = 0;
+      visit(row, 0, 0, 0, [&](Tuple tuple) { gain += missing_.count(tuple); });
+      if (gain > best_gain) best = value, best_gain = gain;
+    }
+    return best;
+  }
+  /// Calls found(tuple) for every tuple of the row's chosen values.
+  template <class Found>
+  void visit(const Row& row, std::size_t axis, std::size_t chosen, Tuple tuple,
+             const Found& found) const {
+    if (chosen == strength_) return found(tuple);
+    for (; axis < row.size(); ++axis)
+      if (row[axis] != kOpen) visit(row, axis + 1, chosen + 1, with(tuple, axis, row[axis]), found);
+  }
+
+  const std::vector<Axis>& axes_;
+  std::size_t strength_;
+  std::set<Tuple> missing_;
+};
 
 }  // namespace
 
 std::vector<std::string> one_at_a_time(const StructureEntry& entry) {
+  const std::vector<Axis> axes = axes_of(entry);
   std::vector<std::string> specs{entry.name};
-  for (const OptionInfo& info : entry.options())
-    for (const std::string& value : values_of(info))
-      specs.push_back(canonical_spec(entry.name, assignment(info, value)));
+  Row row(axes.size(), 0);
+  for (std::size_t i = 0; i < axes.size(); ++i, row.assign(axes.size(), 0))
+    for (row[i] = 1; row[i] < axes[i].values.size(); ++row[i])
+      specs.push_back(spec_of(entry, axes, row));
   return specs;
 }
 
-std::vector<std::string> all_pairs(const StructureEntry& entry) {
+std::vector<std::string> covering(const StructureEntry& entry, std::size_t strength) {
+  const std::vector<Axis> axes = axes_of(entry);
   std::vector<std::string> specs;
-  const std::vector<OptionInfo> infos = entry.options();
-  for (std::size_t i = 0; i < infos.size(); ++i)
-    for (std::size_t j = i + 1; j < infos.size(); ++j)
-      for (const std::string& a : values_of(infos[i]))
-        for (const std::string& b : values_of(infos[j]))
-          specs.push_back(
-              canonical_spec(entry.name, assignment(infos[i], a) + "," + assignment(infos[j], b)));
+  for (Coverage coverage(axes, strength); !coverage.is_complete();)
+    specs.push_back(spec_of(entry, axes, coverage.next_row()));
   return specs;
 }
 
 std::vector<std::string> full_product(const StructureEntry& entry, std::size_t limit) {
-  std::vector<std::string> lists{""};
-  for (const OptionInfo& info : entry.options()) {
-    std::vector<std::string> longer = lists;
-    for (const std::string& value : values_of(info))
-      for (const std::string& list : lists)
-        longer.push_back(list.empty() ? assignment(info, value)
-                                      : list + "," + assignment(info, value));
-    if (longer.size() > limit) return {};
-    lists = std::move(longer);
+  const std::vector<Axis> axes = axes_of(entry);
+  std::vector<Row> rows{Row(axes.size(), 0)};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::size_t values =
+        axes[i].is_number ? std::min<std::size_t>(2, axes[i].values.size()) : axes[i].values.size();
+    if (rows.size() * values > limit) return {};
+    const std::vector<Row> shorter = rows;
+    for (std::size_t value = 1; value < values; ++value)
+      for (Row row : shorter) {
+        row[i] = value;
+        rows.push_back(row);
+      }
   }
   std::vector<std::string> specs;
-  for (const std::string& list : lists) specs.push_back(canonical_spec(entry.name, list));
+  for (const Row& row : rows) specs.push_back(spec_of(entry, axes, row));
   return specs;
 }
 
