@@ -61,14 +61,14 @@ compare_builds() {
 }
 
 fuzz() {
-  local target name folders
+  local target name folders broken_files=${STRAHL_SHARED:-../shared}/scenes/bad
   configure fuzz
   cmake --build --preset fuzz -j "$jobs"
   for target in build/fuzz/bin/*_fuzz; do
     name=$(basename "$target")
     folders=("build/fuzz/corpus/$name")
     mkdir -p "${folders[0]}"
-    if [ -d "tests/fuzz/corpus/$name" ]; then folders+=("tests/fuzz/corpus/$name"); fi
+    if [ -d "$broken_files" ]; then folders+=("$broken_files"); fi
     echo "-- $name"
     "$target" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 -verbosity=0 -print_final_stats=1 \
       -artifact_prefix=build/fuzz/ "${folders[@]}"
