@@ -60,6 +60,7 @@ TEST_P(Conformance, EveryPairOfOptionValuesAnswersLikeBruteForce) {
 
 TEST_P(Conformance, DefaultsAndSingleOptionsAnswerLikeBruteForce) {
   const StructureEntry& entry = *GetParam().entry;
+  if (entry.name == std::string("brute_force")) return;  // it is the oracle
   for (const std::string& spec :
        is_full_matrix() ? one_at_a_time(entry) : std::vector{std::string(entry.name)})
     expect_conforms(*GetParam().scene, spec);
@@ -82,7 +83,8 @@ TEST_P(Conformance, ThreadsAndBatchSizesDoNotChangeBits) {
   const auto parallel = build(scene_of(named), GetParam().entry->name, two);
   EXPECT_EQ(serial->tree_hash(), parallel->tree_hash());
   EXPECT_EQ(first_difference(ask(*parallel, e.set, two), e.answers), "");
-  EXPECT_EQ(first_difference(ask(*serial, e.set, {}, 7), e.answers), "");
+  const Expected& few = expected_of(named, kFewRays);
+  EXPECT_EQ(first_difference(ask(*serial, few.set, {}, 7), few.answers), "");
 }
 
 TEST_P(Conformance, CountingWorkDoesNotChangeBits) {
