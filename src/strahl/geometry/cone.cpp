@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include <strahl/geometry/cone.h>
+#include <strahl/math/coordinate.h>
 
 namespace strahl {
 namespace {
 
 bool can_be_hit(const Cone& cone) {
-  return is_valid_coordinate(cone.base) && is_valid_coordinate(cone.apex) &&
-         is_valid_coordinate(cone.base_radius) && is_valid_coordinate(cone.apex_radius) &&
-         cone.base_radius >= 0.0 && cone.apex_radius >= 0.0 &&
+  return is_coordinate(cone.base) && is_coordinate(cone.apex) && is_coordinate(cone.base_radius) &&
+         is_coordinate(cone.apex_radius) && cone.base_radius >= 0.0 && cone.apex_radius >= 0.0 &&
          (cone.base_radius > 0.0 || cone.apex_radius > 0.0) && !(cone.base == cone.apex);
 }
 

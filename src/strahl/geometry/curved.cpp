@@ -76,14 +76,6 @@ LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& referen
   return p;
 }
 
-bool is_valid_coordinate(double v) {
-  const double a = std::abs(v);
-  return a == 0.0 || (a >= 0x1p-240 && a <= 0x1p240);
-}
-bool is_valid_coordinate(const Vec3d& v) {
-  return is_valid_coordinate(v.x) && is_valid_coordinate(v.y) && is_valid_coordinate(v.z);
-}
-
 Aabb box_around(const Vec3d& center, const Vec3d& half_extent) {
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {

@@ -55,10 +55,6 @@ LinePoint point_at(const Vec3d& org, const Vec3d& dir, double t, const Vec3d& re
 LinePoint nearest_point(const Vec3d& org, const Vec3d& dir, const Vec3d& reference,
                         const Vec3d& shift);
 
-/// 0 or of a magnitude that exact steps can take, 2^-240..2^240; false for NaN and infinity.
-bool is_valid_coordinate(double v);
-bool is_valid_coordinate(const Vec3d& v);
-
 /// The smallest interval of doubles that holds center -+ half_extent, per axis.
 Aabb box_around(const Vec3d& center, const Vec3d& half_extent);
 

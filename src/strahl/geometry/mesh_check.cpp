@@ -5,6 +5,7 @@
 
 #include <strahl/geometry/mesh_check.h>
 #include <strahl/geometry/triangle.h>
+#include <strahl/math/coordinate.h>
 
 namespace strahl {
 namespace {
@@ -59,14 +60,6 @@ class Findings {
   std::vector<MeshFinding> findings_;
 };
 
-bool is_in_range(const Vec3d& v) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = std::abs(v[axis]);
-    if (a != 0.0 && std::isfinite(a) && !(a >= 0x1p-240 && a <= 0x1p240)) return false;
-  }
-  return true;
-}
-
 /// For each vertex the lowest number of a vertex at the same position; itself where not finite.
 std::vector<std::uint64_t> weld(const VertexView& vertices) {
   const auto key = [&](std::uint64_t i) {
@@ -99,7 +92,7 @@ bool check_alone(const TriangleMesh& mesh, std::size_t i, Findings& findings) {
     return false;
   }
   const TriangleVertices tri = mesh[i];
-  if (!is_in_range(tri.a) || !is_in_range(tri.b) || !is_in_range(tri.c)) {
+  if (is_out_of_range(tri.a) || is_out_of_range(tri.b) || is_out_of_range(tri.c)) {
     findings.add(MeshDefect::out_of_range, i);
     return true;
   }

@@ -7,6 +7,7 @@
 #include <strahl/base/hash.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/geometry/triangle.h>
+#include <strahl/math/coordinate.h>
 
 namespace strahl {
 namespace {
@@ -18,11 +19,6 @@ constexpr double gamma(int k) { return 1.0001 * k * kUnit; }
 
 [[noreturn]] void refuse(const SceneData& data, std::string where, const std::string& reason) {
   throw Error(ErrorCode::bad_input, reason, data.source, std::move(where));
-}
-
-bool is_in_range(double v) {
-  const double a = std::abs(v);
-  return a == 0.0 || !std::isfinite(v) || (a >= 0x1p-240 && a <= 0x1p240);
 }
 
 void check_indices(const SceneData& data, const Geometry& g) {
@@ -39,23 +35,24 @@ void check_indices(const SceneData& data, const Geometry& g) {
 void check_vertices(const SceneData& data, const Geometry& g) {
   if (!g.mesh.vertices.is_double) return;
   for (std::size_t i = 0; i < g.mesh.vertices.count; ++i) {
-    const Vec3d v = g.mesh.vertices[i];
-    if (!is_in_range(v.x) || !is_in_range(v.y) || !is_in_range(v.z))
+    if (is_out_of_range(g.mesh.vertices[i]))
       refuse(data, "vertex " + std::to_string(i),
              "a coordinate's magnitude is outside 2^-240..2^240");
   }
 }
 
-void count_defects(const Geometry& g, SceneCounts& counts) {
-  for (std::size_t i = 0; i < g.mesh.size(); ++i) {
-    const TriangleDefect defect = find_defect(g.mesh[i]);
-    counts.refused_not_finite += defect == TriangleDefect::not_finite;
-    counts.refused_repeated_vertex += defect == TriangleDefect::repeated_vertex;
-    counts.refused_zero_area += defect == TriangleDefect::zero_area;
-  }
+void count_defect(TriangleDefect defect, SceneCounts& counts) {
+  counts.refused_not_finite += defect == TriangleDefect::not_finite;
+  counts.refused_repeated_vertex += defect == TriangleDefect::repeated_vertex;
+  counts.refused_zero_area += defect == TriangleDefect::zero_area;
 }
 
-Aabb object_bounds(const Geometry& g, std::size_t prim) {
+Aabb box_of(const TriangleVertices& tri, TriangleDefect defect) {
+  return defect == TriangleDefect::none ? tri.bounds() : Aabb{};
+}
+
+/// Box of a primitive in object space; empty when it is refused.
+Aabb own_bounds(const Geometry& g, std::size_t prim) {
   switch (g.kind) {
     case PrimitiveKind::sphere:
       return bounds(g.spheres[prim]);
@@ -65,20 +62,11 @@ Aabb object_bounds(const Geometry& g, std::size_t prim) {
       break;
   }
   const TriangleVertices tri = g.mesh[prim];
-  return find_defect(tri) == TriangleDefect::none ? tri.bounds() : Aabb{};
+  return box_of(tri, find_defect(tri));
 }
 
 TriangleVertices transformed(const Affine& map, const TriangleVertices& t) {
   return {map.point(t.a), map.point(t.b), map.point(t.c)};
-}
-
-/// Box around the images of the eight corners.
-Aabb transformed(const Affine& map, const Aabb& box) {
-  Aabb image;
-  for (int corner = 0; corner < 8; ++corner)
-    image.extend(map.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                            corner & 4 ? box.hi.z : box.lo.z}));
-  return image;
 }
 
 double radius(const Aabb& box) {
@@ -110,18 +98,33 @@ void Scene::check_geometries() {
     if (g.kind == PrimitiveKind::triangle) {
       check_indices(data_, g);
       check_vertices(data_, g);
-      count_defects(g, counts_);
       counts_.triangles += g.size();
     }
-    Aabb all;
-    for (std::size_t i = 0; i < g.size(); ++i) {
-      const Aabb box = object_bounds(g, i);
-      if (g.kind != PrimitiveKind::triangle) counts_.refused_curved += box.is_empty();
-      all.extend(box);
-    }
     counts_.spheres += g.spheres.size(), counts_.cones += g.cones.size();
-    geometry_bounds_.push_back(all);
+    geometry_bounds_.push_back(g.kind == PrimitiveKind::triangle ? check_triangles(g)
+                                                                 : check_curved(g));
   }
+}
+
+Aabb Scene::check_triangles(const Geometry& g) {
+  Aabb all;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const TriangleVertices tri = g.mesh[i];
+    const TriangleDefect defect = find_defect(tri);
+    count_defect(defect, counts_);
+    all.extend(box_of(tri, defect));
+  }
+  return all;
+}
+
+Aabb Scene::check_curved(const Geometry& g) {
+  Aabb all;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const Aabb box = own_bounds(g, i);
+    counts_.refused_curved += box.is_empty();
+    all.extend(box);
+  }
+  return all;
 }
 
 void Scene::check_instances() {
@@ -141,6 +144,7 @@ void Scene::number_parts() {
   std::uint64_t next = 0;
   for (std::uint32_t i = 0; i < data_.instances.size(); ++i) {
     const Instance& inst = data_.instances[i];
+    first_references_.push_back(static_cast<std::uint32_t>(next));
     for (std::uint32_t g = inst.first_geometry; g < inst.first_geometry + inst.geometry_count;
          ++g) {
       if (data_.geometries[g].size() == 0) continue;
@@ -150,6 +154,7 @@ void Scene::number_parts() {
         throw Error(ErrorCode::resource, "more than 2^32 - 2 instanced primitives", data_.source);
     }
   }
+  first_references_.push_back(static_cast<std::uint32_t>(next));
   reference_count_ = static_cast<std::uint32_t>(next);
   counts_.references = next;
   std::uint32_t part = 0;
@@ -166,7 +171,7 @@ void Scene::bound_parts() {
     if (is_identity_[part.instance]) world_frame_.bounds.extend(geometry_bounds_[part.geometry]);
   }
   for (std::uint32_t r = 0; r < reference_count_; ++r) bounds_.extend(bounds(r));
-  if (radius(bounds_) > 0x1p240)
+  if (radius(bounds_) > kMaxCoordinate)
     refuse(data_, "", "a transformed coordinate's magnitude is above 2^240");
 }
 
@@ -227,24 +232,35 @@ PrimitiveId Scene::id_of(std::uint32_t reference) const {
           reference - part.first_reference};
 }
 
-Aabb Scene::bounds(std::uint32_t reference) const {
+Aabb Scene::object_bounds(std::uint32_t reference) const {
+  const Part& part = part_of(reference);
+  return own_bounds(data_.geometries[part.geometry], reference - part.first_reference);
+}
+
+Aabb Scene::object_clip(std::uint32_t reference, const Aabb& box) const {
   const Part& part = part_of(reference);
   const Geometry& g = data_.geometries[part.geometry];
-  const std::uint32_t prim = reference - part.first_reference;
-  const Aabb own = object_bounds(g, prim);
+  if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(object_bounds(reference), box);
+  return strahl::clip(g.mesh[reference - part.first_reference], box);
+}
+
+Aabb Scene::bounds(std::uint32_t reference) const {
+  const Part& part = part_of(reference);
+  const Aabb own = object_bounds(reference);
   if (own.is_empty() || is_identity_[part.instance]) return own;
+  const Geometry& g = data_.geometries[part.geometry];
   const Affine& map = data_.instances[part.instance].to_world;
-  if (g.kind == PrimitiveKind::triangle) return transformed(map, g.mesh[prim]).bounds();
-  return transformed(map, own);
+  if (g.kind != PrimitiveKind::triangle) return transformed(map, own);
+  return transformed(map, g.mesh[reference - part.first_reference]).bounds();
 }
 
 Aabb Scene::clip(std::uint32_t reference, const Aabb& box) const {
   const Part& part = part_of(reference);
+  if (is_identity_[part.instance]) return object_clip(reference, box);
   const Geometry& g = data_.geometries[part.geometry];
   if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(bounds(reference), box);
-  const TriangleVertices tri = g.mesh[reference - part.first_reference];
-  if (is_identity_[part.instance]) return strahl::clip(tri, box);
-  return strahl::clip(transformed(data_.instances[part.instance].to_world, tri), box);
+  const Affine& map = data_.instances[part.instance].to_world;
+  return strahl::clip(transformed(map, g.mesh[reference - part.first_reference]), box);
 }
 
 }  // namespace strahl

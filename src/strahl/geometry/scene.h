@@ -122,11 +122,21 @@ class Scene final : public PrimitiveSource {
     return parts_[p];
   }
   PrimitiveId id_of(std::uint32_t reference) const;
+  /// References of one instance: consecutive, in the order in which its object numbers them.
+  std::uint32_t first_reference(std::uint32_t instance) const {
+    return first_references_[instance];
+  }
+  std::uint32_t reference_count(std::uint32_t instance) const {
+    return first_references_[instance + 1] - first_references_[instance];
+  }
 
   /// World box of a reference; empty exactly when it can never be hit (refused primitives).
   Aabb bounds(std::uint32_t reference) const override;
   /// Conservative world box of the part of the reference inside box; empty only if that part is.
   Aabb clip(std::uint32_t reference, const Aabb& box) const override;
+  /// The same in the object space of the reference's instance.
+  Aabb object_bounds(std::uint32_t reference) const;
+  Aabb object_clip(std::uint32_t reference, const Aabb& box) const;
   /// Union of all reference boxes.
   const Aabb& total_bounds() const { return bounds_; }
 
@@ -141,6 +151,8 @@ class Scene final : public PrimitiveSource {
  private:
   static constexpr std::uint32_t kBlock = 64;
   void check_geometries();
+  Aabb check_triangles(const Geometry& g);
+  Aabb check_curved(const Geometry& g);
   void check_instances();
   void number_parts();
   void bound_parts();
@@ -151,7 +163,8 @@ class Scene final : public PrimitiveSource {
   std::vector<Affine> to_object_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> first_part_of_block_;
-  std::vector<Aabb> geometry_bounds_;  ///< of never refused primitives, object space
+  std::vector<std::uint32_t> first_references_;  ///< per instance, and the end
+  std::vector<Aabb> geometry_bounds_;            ///< of never refused primitives, object space
   std::vector<std::uint8_t> is_identity_;
   std::vector<RayFrame> object_frames_;
   RayFrame world_frame_;

@@ -1,14 +1,14 @@
 #include <cmath>
 
 #include <strahl/geometry/sphere.h>
+#include <strahl/math/coordinate.h>
 #include <strahl/math/expansion.h>
 
 namespace strahl {
 namespace {
 
 bool can_be_hit(const Sphere& sphere) {
-  return is_valid_coordinate(sphere.center) && sphere.radius > 0.0 &&
-         is_valid_coordinate(sphere.radius);
+  return is_coordinate(sphere.center) && sphere.radius > 0.0 && is_coordinate(sphere.radius);
 }
 
 /// r^2 - p.p, relative to r^2 within a few 2^-104.

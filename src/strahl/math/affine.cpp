@@ -30,6 +30,14 @@ Affine operator*(const Affine& a, const Affine& b) {
   return r;
 }
 
+Aabb transformed(const Affine& map, const Aabb& box) {
+  Aabb image;
+  for (int corner = 0; corner < 8; ++corner)
+    image.extend(map.point({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
+                            corner & 4 ? box.hi.z : box.lo.z}));
+  return image;
+}
+
 double determinant(const Affine& a) {
   return (a.m[0][0] * minor2(a, 1, 2, 1, 2) - a.m[0][1] * minor2(a, 1, 2, 0, 2)) +
          a.m[0][2] * minor2(a, 1, 2, 0, 1);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include <strahl/math/vec3.h>
+#include <strahl/math/aabb.h>
 
 namespace strahl {
 
@@ -48,6 +48,10 @@ struct Affine {
 
 /// The map that applies b first, then a.
 Affine operator*(const Affine& a, const Affine& b);
+
+/// Box around the images of the eight corners. It holds the rounded image of every point of the
+/// box, as each row is monotone in each coordinate and rounding is, too.
+Aabb transformed(const Affine& map, const Aabb& box);
 
 /// Determinant of the linear part.
 double determinant(const Affine& a);

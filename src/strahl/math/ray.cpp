@@ -1,23 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include <strahl/math/coordinate.h>
 #include <strahl/math/ray.h>
 
 namespace strahl {
-namespace {
-
-bool is_coordinate(double v) {
-  const double a = std::abs(v);
-  return a == 0.0 || (a >= 0x1p-240 && a <= 0x1p240);
-}
-bool are_coordinates(const Vec3d& v) {
-  return is_coordinate(v.x) && is_coordinate(v.y) && is_coordinate(v.z);
-}
-
-}  // namespace
 
 bool is_valid(const Ray& ray) {
-  return are_coordinates(ray.org) && are_coordinates(ray.dir) && norm_max(ray.dir) > 0.0 &&
+  return is_coordinate(ray.org) && is_coordinate(ray.dir) && norm_max(ray.dir) > 0.0 &&
          ray.t_min >= 0.0 && std::isfinite(ray.t_min) && ray.t_max >= 0.0;
 }
 

@@ -1,11 +1,12 @@
 #include <cmath>
 
+#include <strahl/math/coordinate.h>
 #include <strahl/query/scene_visitor.h>
 
 namespace strahl {
 namespace {
 
-double flushed(double v) { return std::abs(v) < 0x1p-240 ? 0.0 : v; }
+double flushed(double v) { return std::abs(v) < kMinCoordinate ? 0.0 : v; }
 Vec3d flushed(const Vec3d& v) { return {flushed(v.x), flushed(v.y), flushed(v.z)}; }
 
 }  // namespace
@@ -18,12 +19,12 @@ std::optional<Ray> to_object_space(const Ray& ray, const Affine& to_object) {
   return object;
 }
 
-void SceneVisitor::enter_instance(std::uint32_t instance, const PreparedRay& world_ray) {
-  cached_instance_ = instance;
-  object_ray_.reset();
+std::optional<PreparedRay> enter_instance(const Scene& scene, std::uint32_t instance,
+                                          const PreparedRay& world_ray) {
   const Ray world{world_ray.org, world_ray.dir, world_ray.t_min, world_ray.t_max};
-  if (const auto object = to_object_space(world, scene_.to_object()[instance]))
-    object_ray_.emplace(*object, scene_.object_frame(instance));
+  const std::optional<Ray> object = to_object_space(world, scene.to_object()[instance]);
+  if (!object) return std::nullopt;
+  return PreparedRay(*object, scene.object_frame(instance));
 }
 
 }  // namespace strahl

@@ -1,0 +1,59 @@
+// geometry/instance_source.h - a scene as two sets to build over: its instances, and the primitives
+// of each object in object space.
+//
+// An object is a run of geometries that one or more instances place; its structure is built once
+// and shared. Things of an object are numbered as the references of any of its instances, from 0.
+// Thread safety: immutable; the scene must outlive the sources.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <strahl/geometry/scene.h>
+
+namespace strahl {
+
+/// The primitives that an instance places, in object space.
+class ObjectSource final : public PrimitiveSource {
+ public:
+  ObjectSource(const Scene& scene, std::uint32_t instance) : scene_(scene), instance_(instance) {}
+
+  std::uint32_t size() const override { return scene_.reference_count(instance_); }
+  Aabb bounds(std::uint32_t i) const override { return scene_.object_bounds(reference(i)); }
+  Aabb clip(std::uint32_t i, const Aabb& box) const override {
+    return scene_.object_clip(reference(i), box);
+  }
+
+ private:
+  std::uint32_t reference(std::uint32_t i) const { return scene_.first_reference(instance_) + i; }
+
+  const Scene& scene_;
+  std::uint32_t instance_;
+};
+
+/// The instances of a scene with world boxes around all they place; one without anything that can
+/// be hit has an empty box.
+class InstanceSource final : public PrimitiveSource {
+ public:
+  /// O(instances * log objects).
+  explicit InstanceSource(const Scene& scene);
+
+  std::uint32_t size() const override {
+    return static_cast<std::uint32_t>(scene_.instances().size());
+  }
+  Aabb bounds(std::uint32_t instance) const override;
+  Aabb clip(std::uint32_t instance, const Aabb& box) const override {
+    return Aabb::intersection(bounds(instance), box);
+  }
+
+  /// An instance of each object, in the order of their first instances.
+  const std::vector<std::uint32_t>& objects() const { return objects_; }
+  /// Index into objects().
+  std::uint32_t object_of(std::uint32_t instance) const { return object_of_[instance]; }
+
+ private:
+  const Scene& scene_;
+  std::vector<std::uint32_t> objects_, object_of_;
+};
+
+}  // namespace strahl
