@@ -1,4 +1,4 @@
-#include <atomic>
+#include <algorithm>
 #include <mutex>
 
 #include <strahl/base/error.h>
@@ -8,8 +8,12 @@
 namespace strahl {
 namespace {
 
-/// Rays per task: enough to hide the virtual call, few enough to cancel and balance quickly.
-constexpr std::size_t kSpan = 1024;
+/// Rays per task: enough to hide the virtual call, few enough that all threads get some.
+std::size_t span_size(std::size_t rays, const Executor& executor) {
+  constexpr std::size_t kLeast = 16, kMost = 1024, kPerThread = 4;
+  const std::size_t spans = kPerThread * static_cast<std::size_t>(executor.width());
+  return std::clamp(rays / spans, kLeast, kMost);
+}
 
 void require_outputs(std::size_t got, std::size_t rays, const char* what) {
   if (got == rays) return;
@@ -17,95 +21,79 @@ void require_outputs(std::size_t got, std::size_t rays, const char* what) {
               std::to_string(got) + " entries for " + std::to_string(rays) + " rays", what);
 }
 
-/// Sums the reports of spans and tells progress.
-class SpanLog {
- public:
-  SpanLog(const BuildContext& context, std::size_t total) : context_(context), total_(total) {}
-  void add(const BatchReport& part, std::size_t rays) {
-    double fraction = 0.0;
-    {
-      const std::lock_guard lock(mutex_);
-      sum_.invalid_rays += part.invalid_rays;
-      sum_.counters += part.counters;
-      done_ += rays;
-      fraction = static_cast<double>(done_) / static_cast<double>(total_);
-    }
-    context_.check(fraction, "tracing");
-  }
-  const BatchReport& sum() const { return sum_; }
-
- private:
-  const BuildContext& context_;
-  std::size_t total_, done_ = 0;
-  std::mutex mutex_;
-  BatchReport sum_;
-};
+void sum_up(const BatchReport& part, BatchReport& sum) {
+  sum.invalid_rays += part.invalid_rays;
+  sum.counters += part.counters;
+}
 
 }  // namespace
 
-BatchReport Accelerator::run(SpanJob whole, const BatchContext& context) const {
-  check(whole.rays);
-  whole.begin = 0, whole.end = whole.rays.size();
-  whole.count_work = context.count_work;
+BatchReport Accelerator::run(const RayBatch& rays, QueryKind kind, const BatchContext& context,
+                             AnswerSpan answer) {
+  check(rays);
   const FpEnvGuard environment;
-  SpanLog log(context.context, whole.end);
-  context.context.executor.parallel_for(0, whole.end, kSpan,
-                                        [&](std::size_t first, std::size_t last) {
-                                          SpanJob job = whole;
-                                          job.begin = first, job.end = last;
-                                          log.add(trace_span(job), last - first);
-                                        });
-  return log.sum();
+  const Executor& executor = context.context.executor;
+  std::atomic<std::size_t> done{0};
+  std::mutex mutex;
+  BatchReport sum;
+  executor.parallel_for(0, rays.size(), span_size(rays.size(), executor),
+                        [&](std::size_t first, std::size_t last) {
+                          SpanJob span{rays, context, done, first, last, kind};
+                          const BatchReport part = answer(span);
+                          const std::lock_guard lock(mutex);
+                          sum_up(part, sum);
+                        });
+  return sum;
 }
 
 BatchReport Accelerator::closest_hit(const RayBatch& rays, std::span<Hit> hits,
                                      const BatchContext& context) const {
   require_outputs(hits.size(), rays.size(), "hits");
-  SpanJob job{rays, 0, 0, QueryKind::closest, false};
-  job.closest = hits.data();
-  return run(job, context);
+  return run(rays, QueryKind::closest, context, [&](SpanJob& span) {
+    span.closest = hits.data();
+    return trace_span(span);
+  });
 }
 
 BatchReport Accelerator::any_hit(const RayBatch& rays, std::span<std::uint8_t> occluded,
                                  const BatchContext& context) const {
   require_outputs(occluded.size(), rays.size(), "occluded");
-  SpanJob job{rays, 0, 0, QueryKind::any, false};
-  job.any = occluded.data();
-  return run(job, context);
+  return run(rays, QueryKind::any, context, [&](SpanJob& span) {
+    span.any = occluded.data();
+    return trace_span(span);
+  });
 }
 
 BatchReport Accelerator::count_hits(const RayBatch& rays, std::span<std::uint32_t> counts,
                                     const BatchContext& context) const {
   require_outputs(counts.size(), rays.size(), "counts");
-  SpanJob job{rays, 0, 0, QueryKind::count, false};
-  job.counts = counts.data();
-  return run(job, context);
+  return run(rays, QueryKind::count, context, [&](SpanJob& span) {
+    span.counts = counts.data();
+    return trace_span(span);
+  });
 }
 
 BatchReport Accelerator::inside(const RayBatch& rays, std::span<Side> sides,
                                 const BatchContext& context) const {
   require_outputs(sides.size(), rays.size(), "inside");
-  SpanJob job{rays, 0, 0, QueryKind::inside, false};
-  job.sides = sides.data();
-  return run(job, context);
+  return run(rays, QueryKind::inside, context, [&](SpanJob& span) {
+    span.sides = sides.data();
+    return trace_span(span);
+  });
 }
 
 BatchReport Accelerator::all_hits(const RayBatch& rays, AllHits& hits,
                                   const BatchContext& context) const {
-  check(rays);
-  const std::size_t n = rays.size();
-  const FpEnvGuard environment;
-  SpanLog log(context.context, n);
-  std::vector<std::vector<Hit>> parts((n + kSpan - 1) / kSpan);
+  const std::size_t n = rays.size(), size = span_size(n, context.context.executor);
+  std::vector<std::vector<Hit>> parts((n + size - 1) / size);
   std::vector<std::uint32_t> counts(n);
   std::atomic<std::uint64_t> total{0};
-  context.context.executor.parallel_for(0, n, kSpan, [&](std::size_t first, std::size_t last) {
-    SpanJob job{rays, first, last, QueryKind::all, context.count_work};
-    job.counts = counts.data(), job.all = &parts[first / kSpan];
-    const BatchReport part = trace_span(job);
-    total += job.all->size();
+  const BatchReport report = run(rays, QueryKind::all, context, [&](SpanJob& span) {
+    span.counts = counts.data(), span.all = &parts[span.begin / size];
+    const BatchReport part = trace_span(span);
+    total += span.all->size();
     context.context.require_memory(total * sizeof(Hit), "hits");
-    log.add(part, last - first);
+    return part;
   });
   hits.splits.assign(1, 0);
   hits.splits.reserve(n + 1);
@@ -116,7 +104,7 @@ BatchReport Accelerator::all_hits(const RayBatch& rays, AllHits& hits,
     hits.hits.insert(hits.hits.end(), part.begin(), part.end());
     std::vector<Hit>().swap(part);
   }
-  return log.sum();
+  return report;
 }
 
 Hit Accelerator::closest_hit(const Ray& ray) const {

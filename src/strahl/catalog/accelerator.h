@@ -6,6 +6,7 @@
 // them. Thread safety: const methods are safe from any number of threads.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -13,6 +14,8 @@
 #include <vector>
 
 #include <strahl/base/build_context.h>
+#include <strahl/base/function_ref.h>
+#include <strahl/base/timer.h>
 #include <strahl/build/build_report.h>
 #include <strahl/query/counters.h>
 #include <strahl/query/ray_batch.h>
@@ -45,14 +48,38 @@ enum class QueryKind { closest, any, all, count, inside };
 /// A span of a batch with the output of its kind; for implementers of Accelerator only.
 struct SpanJob {
   const RayBatch& rays;
+  const BatchContext& context;
+  std::atomic<std::size_t>& done;  ///< rays of the batch that are answered
   std::size_t begin, end;
   QueryKind kind;
-  bool count_work;
   Hit* closest = nullptr;
   std::uint8_t* any = nullptr;
   std::uint32_t* counts = nullptr;  ///< also the hits per ray of `all`
   Side* sides = nullptr;
   std::vector<Hit>* all = nullptr;  ///< appended ray by ray
+};
+
+/// Tells the progress of a batch, also within a span of slow rays, so that it can be cancelled
+/// there. Costs a clock reading every 16 rays.
+class Pulse {
+ public:
+  explicit Pulse(const SpanJob& job) : job_(job), told_(job.begin) {}
+  /// To be called before each ray of the span, ascending, and with its end.
+  /// Throws Error{cancelled}.
+  void beat(std::size_t ray) {
+    constexpr double kSeconds = 0.05;
+    if (ray < job_.end && (ray % 16 != 0 || since_.seconds() < kSeconds)) return;
+    const std::size_t done = job_.done.fetch_add(ray - told_) + ray - told_;
+    told_ = ray;
+    since_.restart();
+    job_.context.context.check(static_cast<double>(done) / static_cast<double>(job_.rays.size()),
+                               "tracing");
+  }
+
+ private:
+  const SpanJob& job_;
+  std::size_t told_;
+  Timer since_;
 };
 
 /// A built structure. Keeps the scene alive.
@@ -104,7 +131,9 @@ class Accelerator {
   BuildReport report_;
 
  private:
-  BatchReport run(SpanJob whole, const BatchContext& context) const;
+  using AnswerSpan = function_ref<BatchReport(SpanJob& span)>;
+  static BatchReport run(const RayBatch& rays, QueryKind kind, const BatchContext& context,
+                         AnswerSpan answer);
 };
 
 }  // namespace strahl

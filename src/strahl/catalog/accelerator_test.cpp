@@ -93,6 +93,23 @@ TEST(Accelerator, ProgressCancelsABatch) {
   EXPECT_EQ(calls, 3);
 }
 
+TEST(Accelerator, ProgressOfABatchAscendsToOne) {
+  const auto bvh = build(two_walls(), "bvh");
+  const auto r = rays(100000);
+  std::vector<Hit> hits(r.size());
+  BatchContext context;
+  double last = 0.0;
+  bool ascends = true;
+  context.context.progress = [&](double fraction, std::string_view) {
+    ascends = ascends && fraction >= last;
+    last = fraction;
+    return true;
+  };
+  bvh->closest_hit(make_batch(r), hits, context);
+  EXPECT_TRUE(ascends);
+  EXPECT_EQ(last, 1.0);
+}
+
 TEST(Accelerator, AllHitsHonoursTheMemoryLimit) {
   const auto bvh = build(two_walls(), "bvh");
   const auto r = rays(5000);

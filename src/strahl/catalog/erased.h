@@ -51,7 +51,7 @@ class Erased final : public Accelerator {
 
  private:
   BatchReport trace_span(const SpanJob& job) const override {
-    return job.count_work ? trace_counted<Counters>(job) : trace_counted<NoCounters>(job);
+    return job.context.count_work ? trace_counted<Counters>(job) : trace_counted<NoCounters>(job);
   }
 
   template <class C>
@@ -60,10 +60,12 @@ class Erased final : public Accelerator {
     C counters;
     switch (job.kind) {
       case QueryKind::closest:
-        closest(job, counters, report);
+        answer<ClosestHit>(job, counters, report, job.closest,
+                           [](const ClosestHit& query) { return query.best; });
         break;
       case QueryKind::any:
-        any(job, counters, report);
+        answer<AnyHit>(job, counters, report, job.any,
+                       [](const AnyHit& query) { return std::uint8_t{query.found}; });
         break;
       case QueryKind::inside:
         inside(job, counters, report);
@@ -83,37 +85,36 @@ class Erased final : public Accelerator {
     structure_.trace(prims, PreparedRay(ray, scene_->world_frame()), query, counters);
   }
 
+  static Ray ray_of(const SpanJob& job, std::size_t i) {
+    if (job.kind == QueryKind::inside) return {job.rays.org[i], kInsideDirection};
+    return job.rays.ray(i);
+  }
+
   /// Calls body(i, ray, filter) for the valid rays of the span and counts the others.
   template <class Body>
   static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body) {
+    Pulse pulse(job);
     for (std::size_t i = job.begin; i < job.end; ++i) {
-      const Ray ray = job.rays.ray(i);
+      pulse.beat(i);
+      const Ray ray = ray_of(job, i);
       if (is_valid(ray))
         body(i, ray, job.rays.filter(i));
       else
         ++report.invalid_rays;
     }
+    pulse.beat(job.end);
   }
 
-  template <class C>
-  void closest(const SpanJob& job, C& counters, BatchReport& report) const {
+  /// One answer per ray; T{} for invalid rays.
+  template <class Q, class C, class T, class Result>
+  void answer(const SpanJob& job, C& counters, BatchReport& report, T* out,
+              Result result_of) const {
     SceneVisitor prims(*scene_);
-    std::fill(job.closest + job.begin, job.closest + job.end, Hit{});
+    std::fill(out + job.begin, out + job.end, T{});
     for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
-      ClosestHit query(ray, filter);
+      Q query(ray, filter);
       trace(prims, ray, query, counters);
-      job.closest[i] = query.best;
-    });
-  }
-
-  template <class C>
-  void any(const SpanJob& job, C& counters, BatchReport& report) const {
-    SceneVisitor prims(*scene_);
-    std::fill(job.any + job.begin, job.any + job.end, std::uint8_t{0});
-    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
-      AnyHit query(ray, filter);
-      trace(prims, ray, query, counters);
-      job.any[i] = query.found;
+      out[i] = result_of(query);
     });
   }
 
@@ -136,21 +137,17 @@ class Erased final : public Accelerator {
   void inside(const SpanJob& job, C& counters, BatchReport& report) const {
     SceneVisitor prims(*scene_);
     std::vector<Hit> hits;
-    for (std::size_t i = job.begin; i < job.end; ++i) {
-      const Ray ray{job.rays.org[i], kInsideDirection};
-      job.sides[i] = Side::outside;
-      if (!is_valid(ray)) {
-        ++report.invalid_rays;
-        continue;
-      }
+    std::fill(job.sides + job.begin, job.sides + job.end, Side::outside);
+    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
       hits.clear();
-      InsideTest query(ray, job.rays.filter(i), hits);
+      InsideTest query(ray, filter, hits);
       trace(prims, ray, query, counters);
       if constexpr (!S::kRefersOnce) make_unique(hits);
-      job.sides[i] = query.is_on_surface    ? Side::on_surface
-                     : hits.size() % 2 == 1 ? Side::inside
-                                            : Side::outside;
-    }
+      if (query.is_on_surface)
+        job.sides[i] = Side::on_surface;
+      else if (hits.size() % 2 == 1)
+        job.sides[i] = Side::inside;
+    });
   }
 
   S structure_;
