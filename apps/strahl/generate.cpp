@@ -35,10 +35,13 @@ std::string generator_spec(const GenerateOptions& options) {
 
 int run_generate(const GenerateOptions& options) {
   const std::string spec = generator_spec(options);
-  {
-    const OwnsOutput owns_output;
-    write_generated(spec, options.output);
-  }
+  Session session(options);
+  std::optional<OwnsOutput> owns_output;  // from the first word of the writer on
+  write_generated(spec, options.output, [&](double fraction, std::string_view stage) {
+    if (!owns_output) owns_output.emplace();
+    return session.context().progress(fraction, stage);
+  });
+  session.finish_progress();
   if (options.json) print_json({{"generator", spec}, {"output", options.output}});
   return kExitOk;
 }

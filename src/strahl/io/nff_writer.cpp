@@ -5,22 +5,20 @@
 #include <string>
 #include <utility>
 
-#include <strahl/io/atomic_file.h>
+#include <strahl/io/block_writer.h>
 #include <strahl/io/scene_writer.h>
 
 namespace strahl {
 namespace {
 
-constexpr std::size_t kFlushBytes = 1 << 16;
-
-// Lines of words and numbers, collected and written in blocks.
+// Lines of words and numbers.
 class NffText {
  public:
-  explicit NffText(const std::filesystem::path& path) : file_(path) {}
+  explicit NffText(BlockWriter& file) : file_(file) {}
 
   NffText& word(std::string_view text) {
-    if (!at_line_start_) buffer_ += ' ';
-    buffer_ += text;
+    if (!at_line_start_) file_.put(" ");
+    file_.put(text);
     at_line_start_ = false;
     return *this;
   }
@@ -43,24 +41,13 @@ class NffText {
   NffText& point(const Vec3d& p) { return numbers({p.x, p.y, p.z}); }
 
   void end_line() {
-    buffer_ += '\n';
+    file_.put("\n");
     at_line_start_ = true;
-    if (buffer_.size() >= kFlushBytes) flush();
   }
-
-  void commit() {
-    flush();
-    file_.commit();
-  }
+  void end_item() { file_.item_done(); }
 
  private:
-  void flush() {
-    file_.write(buffer_.data(), buffer_.size());
-    buffer_.clear();
-  }
-
-  AtomicFile file_;
-  std::string buffer_;
+  BlockWriter& file_;
   bool at_line_start_ = true;
 };
 
@@ -114,22 +101,24 @@ void put_objects(NffText& text, const NffScene& scene) {
         put_cone(text, scene.cones[cone++]);
         break;
     }
+    text.end_item();
   }
 }
 
 }  // namespace
 
-void write_nff(const NffScene& scene, const std::filesystem::path& path) {
-  NffText text(path);
+void write_nff(const NffScene& scene, const std::filesystem::path& path, const Progress& progress) {
+  BlockWriter file(path, scene.objects.size(), progress);
+  NffText text(file);
   if (scene.background) text.word("b").point(*scene.background).end_line();
   if (scene.view) put_view(text, *scene.view, scene.hither);
   for (const Vec3d& light : scene.lights) text.word("l").point(light).end_line();
   put_objects(text, scene);
-  text.commit();
+  file.commit();
 }
 
-void write_nff(const SceneData& data, const std::filesystem::path& path) {
-  write_nff(to_nff_scene(data), path);
+void write_nff(const SceneData& data, const std::filesystem::path& path, const Progress& progress) {
+  write_nff(to_nff_scene(data), path, progress);
 }
 
 }  // namespace strahl

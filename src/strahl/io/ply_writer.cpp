@@ -7,13 +7,11 @@
 
 #include <strahl/base/error.h>
 #include <strahl/base/hash.h>  // asserts a little-endian machine
-#include <strahl/io/atomic_file.h>
+#include <strahl/io/block_writer.h>
 #include <strahl/io/scene_writer.h>
 
 namespace strahl {
 namespace {
-
-constexpr std::size_t kFlushBytes = 1 << 16;
 
 // A geometry as it is placed in the world.
 struct Placed {
@@ -42,17 +40,17 @@ std::vector<Placed> placed_geometries(const SceneData& data) {
 bool is_float(double value) { return static_cast<double>(static_cast<float>(value)) == value; }
 bool is_float(const Vec3d& v) { return is_float(v.x) && is_float(v.y) && is_float(v.z); }
 
-class PlyOutput {
+// The values of a binary PLY file.
+class PlyValues {
  public:
-  explicit PlyOutput(const std::filesystem::path& path) : file_(path) {}
-
-  void put_text(const std::string& text) { put_bytes(text.data(), text.size()); }
+  explicit PlyValues(BlockWriter& file) : file_(file) {}
 
   template <class T>
   void put(T value) {
-    put_bytes(&value, sizeof value);
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    file_.put({bytes, sizeof value});
   }
-
   void put_coordinate(double value, bool as_float) {
     if (as_float) {
       put(static_cast<float>(value));
@@ -60,29 +58,13 @@ class PlyOutput {
       put(value);
     }
   }
-
   void put_point(const Vec3d& p, bool as_float) {
     for (const double value : {p.x, p.y, p.z}) put_coordinate(value, as_float);
   }
-
-  void commit() {
-    flush();
-    file_.commit();
-  }
+  void end_item() { file_.item_done(); }
 
  private:
-  void put_bytes(const void* bytes, std::size_t size) {
-    buffer_.append(static_cast<const char*>(bytes), size);
-    if (buffer_.size() >= kFlushBytes) flush();
-  }
-
-  void flush() {
-    file_.write(buffer_.data(), buffer_.size());
-    buffer_.clear();
-  }
-
-  AtomicFile file_;
-  std::string buffer_;
+  BlockWriter& file_;
 };
 
 // "element vertex N" with columns x, y, z and, for spheres, radius.
@@ -115,19 +97,23 @@ bool all_vertices_are_floats(const std::vector<Placed>& placed) {
   return true;
 }
 
-void write_triangles(const std::vector<Placed>& placed, const std::filesystem::path& path) {
+void write_triangles(const std::vector<Placed>& placed, const std::filesystem::path& path,
+                     const Progress& progress) {
   const bool as_float = all_vertices_are_floats(placed);
   std::size_t faces = 0;
   for (const Placed& part : placed) faces += part.geometry->mesh.size();
-  std::string header = vertex_header(checked_vertex_count(placed, path.string()), as_float, false);
+  const std::size_t vertices = checked_vertex_count(placed, path.string());
+  std::string header = vertex_header(vertices, as_float, false);
   header += "element face " + std::to_string(faces) + "\n";
   header += "property list uchar int vertex_indices\nend_header\n";
 
-  PlyOutput output(path);
-  output.put_text(header);
+  BlockWriter file(path, vertices + faces, progress);
+  file.put(header);
+  PlyValues output(file);
   for (const Placed& part : placed) {
     for (std::size_t i = 0; i < part.geometry->mesh.vertices.count; ++i) {
       output.put_point(part.vertex(i), as_float);
+      output.end_item();
     }
   }
   std::uint64_t first_vertex = 0;
@@ -139,13 +125,15 @@ void write_triangles(const std::vector<Placed>& placed, const std::filesystem::p
       for (const std::uint64_t corner : {triangle.a, triangle.b, triangle.c}) {
         output.put(static_cast<std::int32_t>(first_vertex + corner));
       }
+      output.end_item();
     }
     first_vertex += mesh.vertices.count;
   }
-  output.commit();
+  file.commit();
 }
 
-void write_spheres(const std::vector<Placed>& placed, const std::filesystem::path& path) {
+void write_spheres(const std::vector<Placed>& placed, const std::filesystem::path& path,
+                   const Progress& progress) {
   std::size_t count = 0;
   bool as_float = true;
   for (const Placed& part : placed) {
@@ -158,20 +146,22 @@ void write_spheres(const std::vector<Placed>& placed, const std::filesystem::pat
       as_float = as_float && is_float(sphere.center) && is_float(sphere.radius);
     }
   }
-  PlyOutput output(path);
-  output.put_text(vertex_header(count, as_float, true) + "end_header\n");
+  BlockWriter file(path, count, progress);
+  file.put(vertex_header(count, as_float, true) + "end_header\n");
+  PlyValues output(file);
   for (const Placed& part : placed) {
     for (const Sphere& sphere : part.geometry->spheres) {
       output.put_point(sphere.center, as_float);
       output.put_coordinate(sphere.radius, as_float);
+      output.end_item();
     }
   }
-  output.commit();
+  file.commit();
 }
 
 }  // namespace
 
-void write_ply(const SceneData& data, const std::filesystem::path& path) {
+void write_ply(const SceneData& data, const std::filesystem::path& path, const Progress& progress) {
   const std::vector<Placed> placed = placed_geometries(data);
   bool has_triangles = false, has_spheres = false, has_cones = false;
   for (const Placed& part : placed) {
@@ -186,9 +176,9 @@ void write_ply(const SceneData& data, const std::filesystem::path& path) {
                 path.string());
   }
   if (has_spheres) {
-    write_spheres(placed, path);
+    write_spheres(placed, path, progress);
   } else {
-    write_triangles(placed, path);
+    write_triangles(placed, path, progress);
   }
 }
 

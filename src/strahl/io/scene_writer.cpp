@@ -20,13 +20,14 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_generated(std::string_view spec, const std::filesystem::path& path) {
+void write_generated(std::string_view spec, const std::filesystem::path& path,
+                     const Progress& progress) {
   const std::string extension = lower_extension(path);
   if (extension == ".ply") {
-    write_ply(generate_scene(spec), path);
+    write_ply(generate_scene(spec), path, progress);
   } else if (extension == ".nff") {
     const std::optional<NffScene> scene = generate_nff_scene(spec);
-    write_nff(scene ? *scene : to_nff_scene(generate_scene(spec)), path);
+    write_nff(scene ? *scene : to_nff_scene(generate_scene(spec)), path, progress);
   } else {
     throw Error(ErrorCode::usage, "scenes are written as .ply or .nff", path.string());
   }

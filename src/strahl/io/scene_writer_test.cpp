@@ -101,6 +101,31 @@ TEST(PlyWriter, RefusesWhatPlyCannotHoldAndLeavesNoFile) {
   EXPECT_EQ(folder.count(), 0);
 }
 
+TEST(SceneWriter, ProgressAscendsAndCancelsWithoutLeavingAFile) {
+  const TempFolder folder;
+  for (const std::string name : {"a.ply", "a.nff"}) {
+    double last = 0.0;
+    int calls = 0;
+    const auto listen = [&](double fraction, std::string_view stage) {
+      EXPECT_EQ(stage, "writing");
+      EXPECT_GE(fraction, last);
+      last = fraction, ++calls;
+      return true;
+    };
+    write_generated("terrain:64", folder / name, listen);
+    EXPECT_EQ(last, 1.0);
+    EXPECT_GT(calls, 3);
+    const int middle = calls / 2;
+    calls = 0;
+    const auto cancel = [&](double, std::string_view) { return ++calls < middle; };
+    const std::string other = "other_" + name;
+    expect_error([&] { write_generated("terrain:64", folder / other, cancel); },
+                 ErrorCode::cancelled, "cancelled");
+    EXPECT_EQ(calls, middle);
+  }
+  EXPECT_EQ(folder.count(), 2);
+}
+
 TEST(PlyWriter, AnEmptySceneIsAFileWithoutFaces) {
   const TempFolder folder;
   write_ply(SceneData{}, folder / "a.ply");
