@@ -90,9 +90,11 @@ Ray make_ray(std::size_t kind, Targets& targets, Rng& rng) {
     case 14:  // tiny and huge directions
       return {targets.in_box(2.0),
               targets.direction() * std::ldexp(1.0, static_cast<int>(rng.below(120)) - 60)};
-    case 15:  // axis-parallel through a corner from very far: only widened boxes are met for sure
-      return {t.c - axis_vector(axis, sign * std::ldexp(1e9, static_cast<int>(rng.below(11)))),
-              axis_vector(axis, sign)};
+    case 15: {  // axis-parallel beside a corner from very far: only widened boxes are met for sure
+      const double distance = std::ldexp(1e9, static_cast<int>(rng.below(11)));
+      const Vec3d beside = t.c + std::ldexp(distance, -52) * targets.direction();
+      return {beside - axis_vector(axis, sign * distance), axis_vector(axis, sign)};
+    }
     default:
       return towards(targets.in_box(3.0), targets.in_box(1.0));
   }
