@@ -2,8 +2,8 @@
 #include <stdexcept>
 #include <string>
 
-#include <strahl/build/fragment.h>
 #include <strahl/build/object_tree.h>
+#include <strahl/math/float_round.h>
 #include <strahl/structures/bvh/bvh.h>
 
 namespace strahl {
