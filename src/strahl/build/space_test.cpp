@@ -63,7 +63,8 @@ auto content(const SplitPlane& p) {
 
 TEST(Fragment, RoundsBoxesOutwardToFloats) {
   const double third = 1.0 / 3.0;
-  const Fragment f = make_fragments(std::vector{ref_of({third, 0.25, -1e300}, {1, third, -0.0})})[0];
+  const Fragment f =
+      make_fragments(std::vector{ref_of({third, 0.25, -1e300}, {1, third, -0.0})})[0];
   EXPECT_LT(f.lo[0], third);
   EXPECT_GT(f.hi[1], third);
   EXPECT_EQ(std::nextafter(f.lo[0], 1.0f), f.hi[1]);
