@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <strahl/build/fragment.h>
@@ -8,14 +7,6 @@ namespace strahl {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// The nearest float; finite input of any size gives a defined result.
-float nearest_float(double v) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (v > kLargest) return kInfinity;
-  if (v < -kLargest) return -kInfinity;
-  return static_cast<float>(v);
-}
 
 enum class Side { left, right, both };
 
@@ -39,16 +30,6 @@ void add_cut(FragmentHalf& half, Fragment fragment, const Aabb& box, const Divid
 }
 
 }  // namespace
-
-float float_below(double v) {
-  const float f = nearest_float(v);
-  return (static_cast<double>(f) > v ? std::nextafter(f, -kInfinity) : f) + 0.0f;
-}
-
-float float_above(double v) {
-  const float f = nearest_float(v);
-  return (static_cast<double>(f) < v ? std::nextafter(f, kInfinity) : f) + 0.0f;
-}
 
 bool Fragment::shrink_to(const Aabb& box) {
   for (std::size_t axis = 0; axis < 3; ++axis) {

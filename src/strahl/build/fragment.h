@@ -17,13 +17,9 @@
 #include <strahl/build/prim_ref.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/math/aabb.h>
+#include <strahl/math/float_round.h>
 
 namespace strahl {
-
-/// Largest float not above v; below -FLT_MAX it is -inf.
-float float_below(double v);
-/// Smallest float not below v; above FLT_MAX it is +inf.
-float float_above(double v);
 
 /// Closed float box and the reference it belongs to. 28 bytes.
 struct Fragment {

@@ -27,6 +27,7 @@ struct ObjectSplit {
   double cost = Aabb::kInf;
   int axis = 0;
   std::size_t position = 0;  ///< meaning is the splitter's: bin or rank
+  Aabb centers;              ///< of the doubled centres, if the splitter's positions depend on it
   bool is_found() const { return cost < Aabb::kInf; }
 };
 

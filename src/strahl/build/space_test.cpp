@@ -63,17 +63,14 @@ auto content(const SplitPlane& p) {
 
 TEST(Fragment, RoundsBoxesOutwardToFloats) {
   const double third = 1.0 / 3.0;
-  EXPECT_LT(float_below(third), third);
-  EXPECT_GT(float_above(third), third);
-  EXPECT_EQ(std::nextafter(float_below(third), 1.0f), float_above(third));
-  EXPECT_EQ(float_below(0.25), 0.25f);
-  EXPECT_EQ(float_above(0.25), 0.25f);
-  EXPECT_FALSE(std::signbit(float_below(-0.0)));
-  EXPECT_EQ(float_below(1e300), std::numeric_limits<float>::max());
-  EXPECT_EQ(float_above(1e300), std::numeric_limits<float>::infinity());
-  EXPECT_EQ(float_above(-1e300), std::numeric_limits<float>::lowest());
-  EXPECT_EQ(float_below(-1e300), -std::numeric_limits<float>::infinity());
-  EXPECT_LT(float_below(-1e-300), 0.0f);
+  const Fragment f =
+      make_fragments(std::vector{ref_of({third, 0.25, -1e300}, {1, third, -0.0})})[0];
+  EXPECT_LT(f.lo[0], third);
+  EXPECT_GT(f.hi[1], third);
+  EXPECT_EQ(std::nextafter(f.lo[0], 1.0f), f.hi[1]);
+  EXPECT_EQ(f.lo[1], 0.25f);
+  EXPECT_EQ(f.lo[2], -std::numeric_limits<float>::infinity());
+  EXPECT_FALSE(std::signbit(f.hi[2]));
 }
 
 TEST(Sweep, ReproducesThePublishedExampleOfThreeObjects) {

@@ -37,15 +37,16 @@ class BinnedSplitter final : public ObjectSplitter {
       : refs_(refs), bins_(std::clamp(bins, 2, kMaxBins)), cost_(cost) {}
 
   ObjectSplit find(const ObjectSet& set) const override {
-    const Aabb centers = center_box(set);
     ObjectSplit best;
+    best.centers = center_box(set);
     for (int axis = 0; axis < 3; ++axis)
-      if (centers.hi[axis] > centers.lo[axis]) try_axis(set, centers, axis, best);
+      if (best.centers.hi[axis] > best.centers.lo[axis]) try_axis(set, axis, best);
     return best;
   }
 
   ObjectSplit find_median(const ObjectSet& set) const override {
-    return {0.0, center_box(set).longest_axis(), kMedian};
+    const Aabb centers = center_box(set);
+    return {0.0, centers.longest_axis(), kMedian, centers};
   }
 
   std::pair<ObjectSet, ObjectSet> divide(const ObjectSet& set, const ObjectSplit& split) override {
@@ -59,7 +60,7 @@ class BinnedSplitter final : public ObjectSplitter {
         return ca != cb ? ca < cb : a.reference < b.reference;
       });
     } else {
-      const Scale scale(center_box(set), axis, bins_for(set));
+      const Scale scale(split.centers, axis, bins_for(set));
       middle = std::partition(first, last,
                               [&](const PrimRef& r) { return scale.bin(r.box) <= split.position; });
     }
@@ -84,7 +85,8 @@ class BinnedSplitter final : public ObjectSplitter {
           per_unit(bins / (centers.hi[a] - centers.lo[a])),
           axis(a),
           last(static_cast<std::size_t>(bins - 1)) {
-      // A spread so small that its reciprocal overflows still falls into distinct end bins.
+      // Where the reciprocal of the spread overflows, only the lowest bins are used; if it is but
+      // one, no division is found on this axis.
       if (!(per_unit < Aabb::kInf)) per_unit = std::numeric_limits<double>::max();
     }
     std::size_t bin(const Aabb& box) const {
@@ -111,8 +113,8 @@ class BinnedSplitter final : public ObjectSplitter {
     return set;
   }
 
-  void try_axis(const ObjectSet& set, const Aabb& centers, int axis, ObjectSplit& best) const {
-    const Scale scale(centers, axis, bins_for(set));
+  void try_axis(const ObjectSet& set, int axis, ObjectSplit& best) const {
+    const Scale scale(best.centers, axis, bins_for(set));
     Bins bins(scale.last + 1), right(scale.last + 1);
     for (std::size_t i = set.begin; i < set.end; ++i) {
       Bin& bin = bins[scale.bin(refs_[i].box)];
@@ -129,7 +131,7 @@ class BinnedSplitter final : public ObjectSplitter {
       const double cost =
           sah_split_cost(cost_, sah_share(left.box.half_area(), whole), left.count,
                          sah_share(right[b + 1].box.half_area(), whole), right[b + 1].count);
-      if (cost < best.cost) best = {cost, axis, b};
+      if (cost < best.cost) best.cost = cost, best.axis = axis, best.position = b;
     }
   }
 

@@ -33,7 +33,7 @@ class SweepSplitter final : public ObjectSplitter {
     Aabb centers;
     for (std::size_t i = set.begin; i < set.end; ++i)
       centers.extend(doubled_center(refs_[order_[0][i]].box));
-    return {0.0, centers.longest_axis(), set.size() / 2};
+    return {0.0, centers.longest_axis(), set.size() / 2, {}};
   }
 
   std::pair<ObjectSet, ObjectSet> divide(const ObjectSet& set, const ObjectSplit& split) override {
@@ -65,7 +65,7 @@ class SweepSplitter final : public ObjectSplitter {
       const std::size_t left = i + 1 - set.begin;
       const double cost = sah_split_cost(cost_, sah_share(box.half_area(), whole), left,
                                          sah_share(area_[i + 1], whole), set.size() - left);
-      if (cost < best.cost) best = {cost, axis, left};
+      if (cost < best.cost) best = {cost, axis, left, {}};
     }
   }
 

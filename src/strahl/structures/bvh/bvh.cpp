@@ -1,9 +1,8 @@
-#include <algorithm>
-#include <stdexcept>
-#include <string>
+#include <utility>
+#include <vector>
 
-#include <strahl/build/fragment.h>
 #include <strahl/build/object_tree.h>
+#include <strahl/math/float_round.h>
 #include <strahl/structures/bvh/bvh.h>
 
 namespace strahl {
@@ -11,14 +10,6 @@ namespace {
 
 /// What both splitters need at their peak, per primitive, and the finished tree.
 constexpr std::uint64_t kSweepBytes = 3 * 4 + 1 + 8 + 4, kTreeBytes = 2 * sizeof(TreeNode) + 4;
-
-Aabb box_of(const float (&lo)[3], const float (&hi)[3]) {
-  return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
-}
-
-[[noreturn]] void broken(std::size_t node, const char* what) {
-  throw std::logic_error("bvh: node " + std::to_string(node) + ": " + what);
-}
 
 }  // namespace
 
@@ -84,38 +75,18 @@ void Bvh::lay_out(const Tree& tree) {
   report_.references = references_.size();
   report_.depth = static_cast<std::uint64_t>(tree.depth());
   report_.bytes = nodes_.capacity() * sizeof(Node) + references_.capacity() * sizeof(std::uint32_t);
-  report_.sah_cost = tree.sah_cost(cost_);
+  report_.sah_cost = sah_cost();
 }
 
-void Bvh::validate_children(std::size_t node) const {
-  const Node& parent = nodes_[node];
-  if (parent.first + 1 >= nodes_.size() || parent.first <= node) broken(node, "children misplaced");
-  for (std::size_t child = parent.first; child < parent.first + 2; ++child)
-    if (!box_of(parent.lo, parent.hi).contains(box_of(nodes_[child].lo, nodes_[child].hi)))
-      broken(node, "its box does not enclose a child's");
-}
-
-void Bvh::validate(const PrimitiveSource& source) const {
-  std::vector<int> seen(source.size(), 0);
-  std::size_t leaves = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    if (nodes_[i].count == 0) {
-      validate_children(i);
-      continue;
-    }
-    ++leaves;
-    for (const std::uint32_t reference : references(static_cast<std::uint32_t>(i))) {
-      if (!box_of(nodes_[i].lo, nodes_[i].hi).contains(source.bounds(reference)))
-        broken(i, "its box does not enclose a primitive");
-      ++seen[reference];
-    }
+double Bvh::sah_cost() const {
+  const double whole = nodes_[0].box().half_area();
+  double sum = 0.0;
+  for (const Node& node : nodes_) {
+    // Boxes beyond float's range are stored as infinite: every line is taken to meet all of them.
+    const double share = whole < Aabb::kInf ? sah_share(node.box().half_area(), whole) : 1.0;
+    sum += share * (node.count > 0 ? sah_leaf_cost(cost_, node.count) : cost_.traverse);
   }
-  if (!nodes_.empty() && nodes_.size() != 2 * leaves - 1) broken(0, "not a binary tree");
-  if (report_.depth > kMaxDepth) broken(0, "deeper than the limit");
-  for (std::uint32_t i = 0; i < source.size(); ++i)
-    if (seen[i] != (source.bounds(i).is_empty() ? 0 : 1))
-      throw std::logic_error("bvh: primitive " + std::to_string(i) + " is in " +
-                             std::to_string(seen[i]) + " leaves");
+  return sum / cost_.traverse;
 }
 
 void Bvh::hash_into(Hash64& hash) const {

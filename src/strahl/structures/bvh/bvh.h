@@ -4,7 +4,7 @@
 // Layout:     32-byte nodes, children of a node adjacent (one cache line for both), boxes as floats
 //             rounded outward; references ascending inside each leaf.
 // Invariants: every primitive that can be hit is in exactly one leaf; a node's box encloses those
-//             below it; at most kMaxDepth levels.
+//             below it; children come after their parent; no leaf is deeper than kMaxDepth.
 // Differs from the paper: boxes are tested in double with the margins of math/margin.h.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
@@ -89,6 +89,8 @@ class Bvh {
     float lo[3];
     float hi[3];
     std::uint32_t first, count;
+
+    Aabb box() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
   };
   static_assert(sizeof(Node) == 32);
 
@@ -97,8 +99,11 @@ class Bvh {
   }
   void lay_out(const Tree& tree);
   static Node make_node(const TreeNode& from);
-  void validate_children(std::size_t node) const;
+  /// Of the boxes as stored, so that it can be told from the nodes alone.
+  double sah_cost() const;
 
+  friend class BvhChecker;
+  friend class BvhBreaker;  ///< plants faults for the tests
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> references_;
   SahCost cost_;
