@@ -1,7 +1,8 @@
 // Every structure of the catalogue against brute force: the same bits for every query.
 //
-// STRAHL_CONFORMANCE=full asks all rays of every SPEC, tries single options, too, and takes the
-// full product of options on the tiny scenes; without it, SPECs with options get fewer rays.
+// STRAHL_CONFORMANCE=full asks all rays of every SPEC on every scene, tries single options, too,
+// and takes the full product of options on the tiny scenes. Without it, SPECs with options get
+// fewer rays and each a third of the scenes, so that each scene still meets a third of the SPECs.
 #include <algorithm>
 #include <map>
 #include <tests/conformance/oracle.h>
@@ -38,6 +39,12 @@ void expect_conforms(const NamedScene& named, const std::string& spec) {
 struct Param {
   const StructureEntry* entry;
   const NamedScene* scene;
+
+  /// Whether SPEC number i of the structure is tried on this scene.
+  bool takes(std::size_t i) const {
+    const auto number = static_cast<std::size_t>(scene - adversarial_scenes().data());
+    return is_full_matrix() || scene->is_tiny || (i + number) % 3 == 0;
+  }
 };
 
 void PrintTo(const Param& p, std::ostream* out) {
@@ -54,8 +61,9 @@ std::vector<Param> all_params() {
 class Conformance : public testing::TestWithParam<Param> {};
 
 TEST_P(Conformance, EveryPairOfOptionValuesAnswersLikeBruteForce) {
-  for (const std::string& spec : covering(*GetParam().entry, 2))
-    expect_conforms(*GetParam().scene, spec);
+  const std::vector<std::string> specs = covering(*GetParam().entry, 2);
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (GetParam().takes(i)) expect_conforms(*GetParam().scene, specs[i]);
 }
 
 TEST_P(Conformance, DefaultsAndSingleOptionsAnswerLikeBruteForce) {
