@@ -3,6 +3,7 @@
 #include <strahl/build/object_tree.h>
 #include <strahl/structures/bih/bih.h>
 #include <strahl/structures/bih/bih_layout.h>
+#include <strahl/structures/bih/bih_validate.h>
 
 namespace strahl {
 namespace {
@@ -67,17 +68,21 @@ Bih::Bih(const PrimitiveSource& source, const Options& options, const BuildConte
   Tree tree = divide(std::move(refs), root_box_, options, context);
   build_lease = MemoryLease();
   BihLayout layout(tree, options, meter);
-  nodes_ = layout.run();
-  references_ = std::move(tree.references);
-  references_.shrink_to_fit();
+  tree_.nodes = layout.run();
+  tree_.references = std::move(tree.references);
+  tree_.references.shrink_to_fit();
   report_ = layout.report();
-  report_.bytes =
-      nodes_.capacity() * sizeof(BihNode) + references_.capacity() * sizeof(std::uint32_t);
+  report_.bytes = tree_.nodes.capacity() * sizeof(BihNode) +
+                  tree_.references.capacity() * sizeof(std::uint32_t);
+}
+
+void Bih::validate(const PrimitiveSource& source) const {
+  validate_bih(tree_, root_box_, report_, source);
 }
 
 void Bih::hash_into(Hash64& hash) const {
-  for (const BihNode& node : nodes_) node.hash_into(hash);
-  hash.add(std::span<const std::uint32_t>(references_));
+  for (const BihNode& node : tree_.nodes) node.hash_into(hash);
+  hash.add(std::span<const std::uint32_t>(tree_.references));
 }
 
 }  // namespace strahl

@@ -58,7 +58,7 @@ class Bih {
 
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (!nodes_.empty()) walk(*this, prims, ray, query, counters);
+    if (!tree_.nodes.empty()) walk(*this, prims, ray, query, counters);
   }
 
   const BuildReport& report() const { return report_; }
@@ -70,15 +70,15 @@ class Bih {
   NodeVisit enter(const PreparedRay& ray) const {
     return {0, clip_to_box(ray, root_box_.lo, root_box_.hi, {ray.t_enter, ray.t_exit})};
   }
-  bool is_leaf(std::uint32_t node) const { return nodes_[node].is_leaf(); }
+  bool is_leaf(std::uint32_t node) const { return tree_.nodes[node].is_leaf(); }
   std::span<const std::uint32_t> references(std::uint32_t node) const {
-    return {references_.data() + nodes_[node].first(), nodes_[node].count()};
+    return {tree_.references.data() + tree_.nodes[node].first(), tree_.nodes[node].count()};
   }
   /// The child whose interval has the earlier middle comes first; for parallel planes that is the
   /// one on the side the ray comes from.
   template <class C>
   int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* child, C&) const {
-    const BihNode& node = nodes_[at.node];
+    const BihNode& node = tree_.nodes[at.node];
     if (node.is_trimmed()) {
       const int axis = node.trimmed_axis();
       const Interval above = clip_to_side(ray, axis, true, node.plane(0), at.span);
@@ -99,14 +99,11 @@ class Bih {
   }
 
  private:
-  friend class BihChecker;
-
   static Interval clip(const PreparedRay& ray, const AxisSide& side, const Interval& span) {
     return clip_to_side(ray, side.axis, side.is_above, side.plane, span);
   }
 
-  std::vector<BihNode> nodes_;
-  std::vector<std::uint32_t> references_;
+  BihArrays tree_;
   Aabb root_box_;
   BuildReport report_;
 };

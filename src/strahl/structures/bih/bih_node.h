@@ -68,4 +68,10 @@ class BihNode {
 };
 static_assert(sizeof(BihNode) == 12);
 
+/// Nodes, siblings adjacent and behind their parent, and what leaves refer to.
+struct BihArrays {
+  std::vector<BihNode> nodes;
+  std::vector<std::uint32_t> references;
+};
+
 }  // namespace strahl
