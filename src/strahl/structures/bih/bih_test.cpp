@@ -74,11 +74,19 @@ TEST(Bih, GlobalSplitHalvesTheBoxOfTheSceneNotOfTheNode) {
   // Halves [0, 8): 0 1 2 | 7, then [0, 4): 0 1 | 2, then [0, 2): 0 | 1. By rank all would be at 2.
   const ScenePtr scene = on_x_axis({0, 1, 2, 7.99});
   EXPECT_EQ(build(scene, "bih:split=global,leaf_size=1,trim=0")->report().depth, 3u);
-  // Empty halves are passed over without a node.
-  const ScenePtr far = on_x_axis({0, 0.001, 0.002, 1000});
-  const auto tree = build(far, "bih:split=global,leaf_size=1,trim=0");
-  EXPECT_EQ(tree->report().nodes, 7u);
-  EXPECT_LE(tree->report().depth, 3u);
+}
+
+TEST(Bih, GlobalSplitPassesOverEmptyHalvesWithoutANode) {
+  // 0 | rest; [254, 508) becomes [500, 508): 500.1 500.2 500.3 | 507.9; then [500, 500.5) is
+  // halved.
+  const ScenePtr high = on_x_axis({0, 500.1, 500.2, 500.3, 507.99});
+  const auto above = build(high, "bih:split=global,leaf_size=1,trim=0");
+  EXPECT_EQ(above->report().nodes, 9u);
+  EXPECT_EQ(above->report().depth, 4u);
+  const auto below =
+      build(on_x_axis({0, 0.001, 0.002, 0.02, 1000}), "bih:split=global,leaf_size=1,trim=0");
+  EXPECT_EQ(below->report().nodes, 9u);
+  EXPECT_EQ(below->report().depth, 4u);
 }
 
 TEST(Bih, TrimsNodesThatFillTooLittle) {

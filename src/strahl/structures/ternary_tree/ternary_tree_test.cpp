@@ -1,4 +1,5 @@
 #include <functional>
+#include <string>
 #include <tests/support/mesh_maker.h>
 
 #include <gtest/gtest.h>
@@ -73,15 +74,56 @@ TEST(TernaryTree, TakesOutWhatWouldBeOnBothSides) {
   EXPECT_LT(ternary->report().references, binary->report().references);
 }
 
+TEST(TernaryTree, AnswersLikeBruteForceInAnyOrderWithListsAndTrees) {
+  const ScenePtr scene = dust_under_sheets(300, 11);
+  Rng rng(8);
+  const auto point = [&] { return Vec3d{rng.uniform(), rng.uniform(), rng.uniform(-1, 2)}; };
+  std::vector<Ray> rays;
+  for (int i = 0; i < 500; ++i) rays.push_back({point(), point() - point()});
+  AllHits expected, got;
+  build(scene, "brute_force")->all_hits(make_batch(rays), expected);
+  for (const std::string rule : {"area", "sides", "median"})
+    for (const char* keep : {"list", "tree"})
+      for (const char* order : {"first", "last"}) {
+        const auto tree = build(scene, "ternary_tree:decide=always,threshold=0.3,rule=" + rule +
+                                           ",keep=" + keep + ",order=" + order);
+        ASSERT_NO_THROW(tree->validate()) << tree->spec();
+        tree->all_hits(make_batch(rays), got);
+        EXPECT_EQ(got.splits, expected.splits) << tree->spec();
+      }
+}
+
 TEST(TernaryTree, IsAKdTreeWhereNothingIsOversized) {
   const ScenePtr scene = soup(500, 0.01, 2).scene();
   EXPECT_EQ(build(scene, "ternary_tree:rule=median,median_factor=1000000")->tree_hash(),
             build(scene, "kd_tree")->tree_hash());
 }
 
+TEST(TernaryTree, DividesTheRestAsIfTheOversizedWereNotThere) {
+  MeshMaker mesh = soup(1000, 0.005, 9);
+  const ScenePtr dust = mesh.scene();
+  for (const double z : {0.2, 0.3, 0.4})  // within the box of the dust
+    mesh.triangle({0.02, 0.02, z}, {0.98, 0.02, 1 - z}, {0.98, 0.98, z + 0.3});
+  TernaryTreeOptions options;
+  options.decide = OversizeDecision::always, options.threshold = 0.4, options.max_depth = 60;
+  const ScenePtr both = mesh.scene();
+  ASSERT_EQ(both->total_bounds(), dust->total_bounds());
+  const KdArrays whole = nodes_of(both, options), rest = nodes_of(dust, options);
+  ASSERT_EQ(whole.nodes[1].count(), 3u);
+  ASSERT_EQ(whole.nodes.size(), rest.nodes.size() + 2);
+  for (std::size_t i = 0; i < rest.nodes.size(); ++i) {
+    const KdNode &a = whole.nodes[i + 2], &b = rest.nodes[i];
+    ASSERT_EQ(a.is_leaf(), b.is_leaf());
+    if (a.is_leaf() || a.is_filter()) continue;
+    ASSERT_EQ(a.axis(), b.axis());
+    ASSERT_EQ(a.plane(), b.plane());
+  }
+}
+
 TEST(TernaryTree, KeepsFewAsAListAndManyAsATree) {
   TernaryTreeOptions options;
   options.decide = OversizeDecision::always;
+  options.threshold = 0.3;      // every sheet is oversized
   options.intersect_cost = 20;  // any division pays, so only lists stay whole
   const auto first_oversized_is_list = [&](int sheets, OversizeKeep keep, int list_max) {
     options.keep = keep, options.list_max = list_max;
@@ -109,9 +151,11 @@ TEST(TernaryTree, DecidesByExpectedCost) {
 
 TEST(TernaryTree, FiltersNothingWithinAnOversizedTree) {
   TernaryTreeOptions options;
+  options.threshold = 0.3, options.intersect_cost = 20;  // every sheet; divided among themselves
   options.keep = OversizeKeep::tree, options.decide = OversizeDecision::always;
   const KdArrays tree = nodes_of(dust_under_sheets(1000, 12), options);
   ASSERT_TRUE(tree.nodes[0].is_filter());
+  ASSERT_FALSE(tree.nodes[1].is_leaf());
   for (std::size_t i = 1; i < tree.nodes[0].right(); ++i) EXPECT_FALSE(tree.nodes[i].is_filter());
 }
 
