@@ -1,8 +1,9 @@
-// build/object_split.h - how a set of primitives is divided in two, and the two SAH splitters.
+// build/object_split.h - how a set of primitives is divided in two: two SAH splitters and one that
+// divides space.
 //
-// A splitter orders or sorts its primitives in place: left part first. Both choose among all three
-// axes by the surface area heuristic; ties go to the lower cost, then the lower axis, then the
-// lower position, so results depend on the input only.
+// A splitter orders or sorts its primitives in place: left part first. The SAH splitters choose
+// among all three axes by the surface area heuristic; ties go to the lower cost, then the lower
+// axis, then the lower position, so results depend on the input only.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,7 @@ namespace strahl {
 struct ObjectSet {
   std::size_t begin = 0, end = 0;
   Aabb box;
+  Aabb cell{};  ///< holds all centres; kept by splitters that divide space, else empty
   std::size_t size() const { return end - begin; }
 };
 
@@ -56,7 +58,13 @@ std::unique_ptr<ObjectSplitter> make_binned_splitter(std::span<PrimRef> refs, in
 std::unique_ptr<ObjectSplitter> make_sweep_splitter(std::span<const PrimRef> refs,
                                                     const SahCost& cost);
 
-/// Twice the centre of a box: what both splitters sort by, without a rounding.
+/// The middle of the set's cell on its longest axis, the cell of the root being its box; a cell is
+/// halved without dividing the set as long as all centres lie on one side [Waechter2006]. Costs as
+/// much as a leaf, so only sets too large for a leaf are divided. O(n) per division, sorts the
+/// references in place. `refs` must outlive it.
+std::unique_ptr<ObjectSplitter> make_middle_splitter(std::span<PrimRef> refs, const SahCost& cost);
+
+/// Twice the centre of a box: what all splitters sort by, without a rounding.
 inline Vec3d doubled_center(const Aabb& box) { return box.lo + box.hi; }
 
 }  // namespace strahl

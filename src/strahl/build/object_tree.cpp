@@ -31,13 +31,13 @@ class ObjectPolicy {
   void leaf(const ObjectSet& set, Tree& out) const {
     const std::size_t first = out.references.size();
     out.nodes.push_back(
-        {set.box, 0, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(set.size())});
+        {set.box, 0, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(set.size()), 0});
     splitter_.list(set, out.references);
     std::sort(out.references.begin() + static_cast<std::ptrdiff_t>(first), out.references.end());
   }
 
-  std::size_t open(const ObjectSet& set, const ObjectSplit&, Tree& out) const {
-    out.nodes.push_back({set.box, 0, 0, 0});
+  std::size_t open(const ObjectSet& set, const ObjectSplit& split, Tree& out) const {
+    out.nodes.push_back({set.box, 0, 0, 0, static_cast<std::uint32_t>(split.axis)});
     return out.nodes.size() - 1;
   }
 
@@ -63,7 +63,7 @@ Tree build_object_tree(ObjectSplitter& splitter, std::size_t primitives, const A
                        const LeafRules& rules, const BuildContext& context) {
   Tree tree;
   ObjectPolicy policy(splitter, rules);
-  TopDown<ObjectPolicy>(policy, context, primitives).run({0, primitives, box}, tree);
+  TopDown<ObjectPolicy>(policy, context, primitives).run({0, primitives, box, box}, tree);
   return tree;
 }
 

@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
 #include <type_traits>
 
-#include <strahl/build/object_split.h>
+#include <strahl/build/split_in_place.h>
 
 namespace strahl {
 namespace {
@@ -31,10 +30,10 @@ class Bins {
   Bin* bins_;
 };
 
-class BinnedSplitter final : public ObjectSplitter {
+class BinnedSplitter final : public InPlaceSplitter {
  public:
   BinnedSplitter(std::span<PrimRef> refs, int bins, const SahCost& cost)
-      : refs_(refs), bins_(std::clamp(bins, 2, kMaxBins)), cost_(cost) {}
+      : InPlaceSplitter(refs), bins_(std::clamp(bins, 2, kMaxBins)), cost_(cost) {}
 
   ObjectSplit find(const ObjectSet& set) const override {
     ObjectSplit best;
@@ -44,37 +43,13 @@ class BinnedSplitter final : public ObjectSplitter {
     return best;
   }
 
-  ObjectSplit find_median(const ObjectSet& set) const override {
-    const Aabb centers = center_box(set);
-    return {0.0, centers.longest_axis(), kMedian, centers};
-  }
-
   std::pair<ObjectSet, ObjectSet> divide(const ObjectSet& set, const ObjectSplit& split) override {
-    const auto first = refs_.begin() + static_cast<std::ptrdiff_t>(set.begin);
-    const auto last = refs_.begin() + static_cast<std::ptrdiff_t>(set.end);
-    const int axis = split.axis;
-    auto middle = first + (last - first) / 2;
-    if (split.position == kMedian) {
-      std::nth_element(first, middle, last, [axis](const PrimRef& a, const PrimRef& b) {
-        const double ca = doubled_center(a.box)[axis], cb = doubled_center(b.box)[axis];
-        return ca != cb ? ca < cb : a.reference < b.reference;
-      });
-    } else {
-      const Scale scale(split.centers, axis, bins_for(set));
-      middle = std::partition(first, last,
-                              [&](const PrimRef& r) { return scale.bin(r.box) <= split.position; });
-    }
-    const auto size = static_cast<std::size_t>(middle - first);
-    return {boxed(set.begin, set.begin + size), boxed(set.begin + size, set.end)};
-  }
-
-  void list(const ObjectSet& set, std::vector<std::uint32_t>& references) const override {
-    for (std::size_t i = set.begin; i < set.end; ++i) references.push_back(refs_[i].reference);
+    if (split.position == kMedian) return divide_at_median(set, split.axis);
+    const Scale scale(split.centers, split.axis, bins_for(set));
+    return divide_by(set, [&](const Aabb& box) { return scale.bin(box) <= split.position; });
   }
 
  private:
-  static constexpr std::size_t kMedian = ~std::size_t{0};
-
   /// Maps centres on one axis to bins; the same function finds and carries out a division.
   struct Scale {
     double lo, per_unit;
@@ -101,24 +76,12 @@ class BinnedSplitter final : public ObjectSplitter {
                                                             : bins_;
   }
 
-  Aabb center_box(const ObjectSet& set) const {
-    Aabb box;
-    for (std::size_t i = set.begin; i < set.end; ++i) box.extend(doubled_center(refs_[i].box));
-    return box;
-  }
-
-  ObjectSet boxed(std::size_t begin, std::size_t end) const {
-    ObjectSet set{begin, end, {}};
-    for (std::size_t i = begin; i < end; ++i) set.box.extend(refs_[i].box);
-    return set;
-  }
-
   void try_axis(const ObjectSet& set, int axis, ObjectSplit& best) const {
     const Scale scale(best.centers, axis, bins_for(set));
     Bins bins(scale.last + 1), right(scale.last + 1);
-    for (std::size_t i = set.begin; i < set.end; ++i) {
-      Bin& bin = bins[scale.bin(refs_[i].box)];
-      bin.box.extend(refs_[i].box);
+    for (const PrimRef& ref : refs_of(set)) {
+      Bin& bin = bins[scale.bin(ref.box)];
+      bin.box.extend(ref.box);
       ++bin.count;
     }
     Bin sum;
@@ -135,7 +98,6 @@ class BinnedSplitter final : public ObjectSplitter {
     }
   }
 
-  std::span<PrimRef> refs_;
   int bins_;
   SahCost cost_;
 };

@@ -20,6 +20,7 @@ struct TreeNode {
   std::uint32_t right = 0;  ///< inner nodes: index of the right child
   std::uint32_t first = 0;  ///< leaves: position of the first reference
   std::uint32_t count = 0;  ///< leaves: number of references
+  std::uint32_t axis = 0;   ///< inner nodes: the left child's centres lie lower on it
 
   bool is_leaf() const { return count > 0; }
 };

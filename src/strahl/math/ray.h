@@ -70,4 +70,19 @@ inline Interval clip_to_box(const PreparedRay& ray, const Vec3d& lo, const Vec3d
   return in;
 }
 
+/// Conservative half-space test: the part of `in` in which the ray may be where x[axis] <= plane,
+/// or x[axis] >= plane if is_above. The margins are those of clip_to_box(), plane by plane, so
+/// tests of several half-spaces may follow each other.
+inline Interval clip_to_side(const PreparedRay& ray, int axis, bool is_above, double plane,
+                             Interval in) {
+  if (is_above != ray.negative[axis]) {
+    const double first = ray.plane_first(axis, plane);
+    in.t_enter = first > in.t_enter ? first : in.t_enter;
+  } else {
+    const double last = ray.plane_last(axis, plane) * (1.0 + 2 * kPlaneMargin);
+    in.t_exit = last < in.t_exit ? last : in.t_exit;
+  }
+  return in;
+}
+
 }  // namespace strahl

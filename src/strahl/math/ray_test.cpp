@@ -94,6 +94,24 @@ TEST(ClipToBox, ARayInAFaceIsInsideAndOneBesideItIsNot) {
   EXPECT_FALSE(crosses({-1e-300, 0.5, -1}));
 }
 
+TEST(ClipToSide, SixSidesAreABox) {
+  Rng rng(6);
+  const auto small = [&] { return static_cast<double>(rng.below(5)) - 2.0; };
+  for (int i = 0; i < 2000; ++i) {
+    const Ray given{{small(), small(), small()}, {small(), small(), small()}};
+    const Aabb box{{-1, -1, 0}, {1, 0.7, 0}};
+    const PreparedRay ray(given, {box, 0, 0});
+    Interval by_sides{ray.t_enter, ray.t_exit};
+    for (int axis = 0; axis < 3; ++axis) {
+      by_sides = clip_to_side(ray, axis, true, box.lo[axis], by_sides);
+      by_sides = clip_to_side(ray, axis, false, box.hi[axis], by_sides);
+    }
+    const Interval whole = clip_to_box(ray, box.lo, box.hi, {ray.t_enter, ray.t_exit});
+    ASSERT_EQ(by_sides.t_enter, whole.t_enter);
+    ASSERT_EQ(by_sides.t_exit, whole.t_exit);
+  }
+}
+
 TEST(PreparedRay, WideningMovesNearPlanesEarlierAndFarPlanesLater) {
   const Aabb box{{0, 0, 0}, {1, 1, 1}};
   for (const double sign : {1.0, -1.0}) {

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <functional>
 #include <memory>
+#include <tests/support/doctored.h>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 namespace strahl {
 namespace {
 
+using test::Doctored;
 using ScenePtr = std::shared_ptr<const Scene>;
 
 ScenePtr scene_of(std::vector<Vec3d> vertices, std::vector<Instance> instances = {}) {
@@ -301,17 +302,6 @@ TEST(Grid, OfNothingHitsNothing) {
   EXPECT_FALSE(hits[0].is_hit());
   EXPECT_EQ(grid->report().references, 0u);
 }
-
-/// Answers as a scene, except for what a test changes.
-struct Doctored : PrimitiveSource {
-  const Scene& scene;
-  std::function<Aabb(std::uint32_t, Aabb)> change;
-  Doctored(const Scene& s, std::function<Aabb(std::uint32_t, Aabb)> c)
-      : scene(s), change(std::move(c)) {}
-  std::uint32_t size() const override { return scene.size(); }
-  Aabb bounds(std::uint32_t i) const override { return change(i, scene.bounds(i)); }
-  Aabb clip(std::uint32_t i, const Aabb& box) const override { return scene.clip(i, box); }
-};
 
 TEST(Grid, ValidateNoticesWhatIsMissingOrTooMuch) {
   const ScenePtr scene = scene_of(soup(100, 0.5, 14));

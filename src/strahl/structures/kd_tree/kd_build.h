@@ -7,10 +7,6 @@
 
 namespace strahl {
 
-/// Depth at which cells are no longer divided: the option, or 8 + 1.3 log2(n) [pbrt], n rounded up
-/// to a power of two.
-int kd_depth_limit(const KdTreeOptions& options, std::size_t primitives);
-
 /// Nodes and references of a tree over refs, whose boxes lie in root.
 /// Throws Error{resource}, Error{cancelled}.
 KdArrays build_kd_tree(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& root,

@@ -5,38 +5,6 @@
 #include <strahl/structures/kd_tree/kd_tree.h>
 
 namespace strahl {
-namespace {
-
-/// Counts leaves and sums up, over all nodes, the chance to be crossed times the work done there.
-struct Survey {
-  const KdArrays& tree;
-  SahCost cost;
-  double root_area;
-  BuildReport report;
-
-  void visit(std::uint32_t index, const Aabb& cell, std::uint64_t depth) {
-    const KdNode& node = tree.nodes[index];
-    const double share = sah_share(cell.half_area(), root_area);
-    if (node.is_leaf()) {
-      ++report.leaves;
-      report.empty_leaves += node.count() == 0;
-      report.references += node.count();
-      report.depth = std::max(report.depth, depth);
-      report.sah_cost += share * sah_leaf_cost(cost, node.count());
-      return;
-    }
-    report.sah_cost += share * cost.traverse;
-    Aabb half = cell;
-    half.hi[node.axis()] = node.plane();
-    visit(index + 1, half, depth + 1);
-    half = cell;
-    half.lo[node.axis()] = node.plane();
-    visit(node.right(), half, depth + 1);
-  }
-};
-
-}  // namespace
-
 OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
   using O = KdTreeOptions;
   return {
@@ -70,15 +38,13 @@ KdTree::KdTree(const PrimitiveSource& source, const Options& options, const Buil
     : cost_{options.traverse_cost, options.intersect_cost} {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   for (const PrimRef& ref : refs) root_box_.extend(ref.box);
-  max_depth_ = kd_depth_limit(options, refs.size());
+  max_depth_ = kd_depth_limit(options.max_depth, kMaxDepth, refs.size());
   tree_ = build_kd_tree(source, std::move(refs), root_box_, options, context);
-  Survey survey{tree_, cost_, root_box_.half_area(), {}};
-  survey.visit(0, root_box_, 0);
-  report_ = survey.report;
-  report_.sah_cost /= cost_.traverse;
-  report_.nodes = tree_.nodes.size();
-  report_.bytes =
-      tree_.nodes.capacity() * sizeof(KdNode) + tree_.references.capacity() * sizeof(std::uint32_t);
+  report_ = report_kd_tree(tree_, root_box_, cost_);
+}
+
+void KdTree::validate(const PrimitiveSource& source) const {
+  validate_kd_tree(tree_, {kName, root_box_, max_depth_, cost_, false, report_}, source);
 }
 
 void KdTree::hash_into(Hash64& hash) const {

@@ -2,26 +2,19 @@
 // area heuristic.
 //
 // Source: [Kaplan1985], [MacDonaldBooth1990]; sweep and splicing after [WaldHavran2006].
-// Layout: 8-byte nodes, depth first (kd_node.h); cells are implicit.
+// Layout: 8-byte nodes, depth first (build/kd_node.h); cells are implicit.
 // Invariants: every split plane lies strictly inside its cell, so cells tile the root box; every
 //   point of a primitive lies in some closed leaf cell that refers to the primitive.
 // Why no hit is lost: by the second invariant the point of a hit lies in a closed cell that refers
-//   to its primitive. At each plane both sides are visited unless the plane's parameter, with the
-//   margin for its rounding, says that the side is certainly left before or entered after what is
-//   visited; so every closed cell that holds a point of the ray is visited, those on both sides of
-//   a plane that the ray touches or lies in (a NaN parameter) included.
+//   to its primitive, and every closed cell that holds a point of the ray is visited
+//   (traverse/plane.h).
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
 
-#include <algorithm>
-
 #include <strahl/base/hash.h>
 #include <strahl/base/options.h>
-#include <strahl/build/build_report.h>
-#include <strahl/build/prim_ref.h>
-#include <strahl/build/sah.h>
-#include <strahl/structures/kd_tree/kd_node.h>
-#include <strahl/traverse/walk.h>
+#include <strahl/build/kd_policy.h>
+#include <strahl/traverse/plane.h>
 
 namespace strahl {
 
@@ -70,25 +63,11 @@ class KdTree {
   std::span<const std::uint32_t> references(std::uint32_t node) const {
     return tree_.nodes[node].references(tree_.references);
   }
-  /// The near child is the one on the side the ray comes from. Comparisons hold for NaN.
   template <class C>
   int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* children, C&) const {
     const KdNode& node = tree_.nodes[at.node];
-    const int axis = node.axis();
-    // Parameters below 0 may keep the wrong side of the margin: intervals begin at 0.
-    const double first = ray.plane_first(axis, node.plane()) * (1.0 - kPlaneMargin);
-    const double last = ray.plane_last(axis, node.plane()) * (1.0 + kPlaneMargin);
-    const bool from_above = ray.negative[axis];
-    int count = 0;
-    if (!(at.span.t_enter > last)) {
-      const double t_exit = last < at.span.t_exit ? last : at.span.t_exit;
-      children[count++] = {from_above ? node.right() : at.node + 1, {at.span.t_enter, t_exit}};
-    }
-    if (!(at.span.t_exit < first)) {
-      const double t_enter = first > at.span.t_enter ? first : at.span.t_enter;
-      children[count++] = {from_above ? at.node + 1 : node.right(), {t_enter, at.span.t_exit}};
-    }
-    return count;
+    return cross_plane(ray, {node.axis(), node.plane(), at.node + 1, node.right()}, at.span,
+                       children);
   }
 
   const BuildReport& report() const { return report_; }
@@ -97,8 +76,6 @@ class KdTree {
   void hash_into(Hash64& hash) const;
 
  private:
-  friend class KdChecker;
-
   KdArrays tree_;
   Aabb root_box_;
   SahCost cost_;

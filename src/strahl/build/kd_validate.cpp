@@ -1,16 +1,12 @@
-// structures/kd_tree/kd_validate.cpp - the invariants of a kd-tree, executable.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include <strahl/structures/kd_tree/kd_tree.h>
+#include <strahl/build/kd_policy.h>
 
 namespace strahl {
 namespace {
-
-void demand(bool holds, const char* broken) {
-  if (!holds) throw std::logic_error(std::string("kd_tree: ") + broken);
-}
 
 /// The cell without a rim in which bounds of clipped primitives may be off by rounding; axes along
 /// which the cell is flat stay as they are.
@@ -35,45 +31,47 @@ bool meets_interior(const Aabb& cell, const Aabb& box) {
   return true;
 }
 
-}  // namespace
-
 /// Walks the tree with the primitives that may lie in each cell.
 class KdChecker {
  public:
-  KdChecker(const KdTree& tree, const PrimitiveSource& source)
-      : tree_(tree.tree_),
-        max_depth_(tree.max_depth_),
-        cost_(tree.cost_),
+  KdChecker(const KdArrays& tree, const KdCheck& check, const PrimitiveSource& source)
+      : tree_(tree),
+        check_(check),
         source_(source),
-        largest_(tree.root_box_.is_empty()
+        largest_(check.root.is_empty()
                      ? 0.0
-                     : std::max(norm_max(tree.root_box_.lo), norm_max(tree.root_box_.hi))) {}
+                     : std::max(norm_max(check.root.lo), norm_max(check.root.hi))) {}
 
-  void run(const KdTree& tree) {
+  void run() {
     std::vector<std::uint32_t> all;
     for (std::uint32_t i = 0; i < source_.size(); ++i)
       if (!source_.bounds(i).is_empty()) all.push_back(i);
     is_referenced_.assign(source_.size(), false);
-    const double cost = visit(tree.root_box_, all, 0);
+    const double cost = visit(check_.root, all, 0);
     demand(next_node_ == tree_.nodes.size(), "nodes beyond the last leaf");
     demand(next_reference_ == tree_.references.size(), "references beyond the last leaf");
     for (const std::uint32_t i : all) demand(is_referenced_[i], "a primitive is in no leaf");
-    const BuildReport& report = tree.report();
+    const BuildReport& report = check_.report;
     demand(leaves_ == report.leaves && empty_ == report.empty_leaves, "report: leaves");
     demand(total_references_ == report.references, "report: references");
     demand(deepest_ == report.depth, "report: depth");
     demand(next_node_ == report.nodes, "report: nodes");
-    const double reported = report.sah_cost * cost_.traverse;
+    const double reported = report.sah_cost * check_.cost.traverse;
     demand(std::abs(cost - reported) <= 1e-6 * cost, "report: SAH cost");
   }
 
  private:
+  void demand(bool holds, const char* broken) const {
+    if (!holds) throw std::logic_error(std::string(check_.name) + ": " + broken);
+  }
+
   /// Checks the subtree that begins at next_node_; returns its cost per line that crosses it.
   double visit(const Aabb& cell, const std::vector<std::uint32_t>& candidates, int depth) {
     demand(next_node_ < tree_.nodes.size(), "a child beyond the last node");
     const KdNode& node = tree_.nodes[next_node_++];
-    demand(depth <= max_depth_, "a node is too deep");
+    demand(depth <= check_.max_depth, "a node is too deep");
     if (node.is_leaf()) return visit_leaf(node, cell, candidates, depth);
+    if (node.is_filter()) return visit_filter(node, cell, candidates, depth);
     const int axis = node.axis();
     demand(cell.lo[axis] < node.plane() && node.plane() < cell.hi[axis],
            "a split plane is not strictly inside its cell");
@@ -83,8 +81,43 @@ class KdChecker {
     demand(next_node_ == node.right(), "a right child is not where its parent says");
     const double right_cost = visit(right, inside(right, candidates), depth + 1);
     const double whole = cell.half_area();
-    return cost_.traverse + sah_share(left.half_area(), whole) * left_cost +
+    return check_.cost.traverse + sah_share(left.half_area(), whole) * left_cost +
            sah_share(right.half_area(), whole) * right_cost;
+  }
+
+  /// The left subtree alone holds its primitives; the rest is checked without them.
+  double visit_filter(const KdNode& node, const Aabb& cell,
+                      const std::vector<std::uint32_t>& candidates, int depth) {
+    demand(check_.may_filter, "a split plane is NaN");
+    demand(node.right() >= next_node_ && node.right() < tree_.nodes.size() &&
+               !tree_.nodes[node.right()].is_leaf() && !tree_.nodes[node.right()].is_filter(),
+           "a filter is not followed by a plane");
+    const std::vector<std::uint32_t> filtered = references_of(next_node_, node.right());
+    std::vector<std::uint32_t> inside, rest;
+    for (const std::uint32_t i : candidates)
+      (std::binary_search(filtered.begin(), filtered.end(), i) ? inside : rest).push_back(i);
+    const double cost = visit(cell, inside, depth + 1);
+    demand(next_node_ == node.right(), "a right child is not where its parent says");
+    const double rest_cost = visit(cell, rest, depth + 1);
+    for (const std::uint32_t i : references_of(node.right(), next_node_))
+      demand(!std::binary_search(filtered.begin(), filtered.end(), i),
+             "an oversized primitive is also in the rest");
+    return cost + rest_cost;
+  }
+
+  /// Sorted references of the leaves among nodes [first, last).
+  std::vector<std::uint32_t> references_of(std::size_t first, std::size_t last) const {
+    std::vector<std::uint32_t> all;
+    for (std::size_t i = first; i < last; ++i) {
+      const KdNode& node = tree_.nodes[i];
+      if (!node.is_leaf()) continue;
+      demand(node.count() < 2 || node.first() + node.count() <= tree_.references.size(),
+             "a leaf's references are out of range");
+      const auto references = node.references(tree_.references);
+      all.insert(all.end(), references.begin(), references.end());
+    }
+    std::sort(all.begin(), all.end());
+    return all;
   }
 
   double visit_leaf(const KdNode& node, const Aabb& cell,
@@ -99,7 +132,7 @@ class KdChecker {
       demand(next_reference_ <= tree_.references.size(), "a leaf's references are out of range");
     }
     check_references(node.references(tree_.references), cell, candidates);
-    return sah_leaf_cost(cost_, node.count());
+    return sah_leaf_cost(check_.cost, node.count());
   }
 
   void check_references(std::span<const std::uint32_t> references, const Aabb& cell,
@@ -127,8 +160,7 @@ class KdChecker {
   }
 
   const KdArrays& tree_;
-  int max_depth_;
-  SahCost cost_;
+  const KdCheck& check_;
   const PrimitiveSource& source_;
   double largest_;
   std::vector<bool> is_referenced_;
@@ -136,6 +168,10 @@ class KdChecker {
   std::uint64_t leaves_ = 0, empty_ = 0, total_references_ = 0, deepest_ = 0;
 };
 
-void KdTree::validate(const PrimitiveSource& source) const { KdChecker(*this, source).run(*this); }
+}  // namespace
+
+void validate_kd_tree(const KdArrays& tree, const KdCheck& check, const PrimitiveSource& source) {
+  KdChecker(tree, check, source).run();
+}
 
 }  // namespace strahl

@@ -1,0 +1,41 @@
+// traverse/plane.h - which sides of an axis-perpendicular plane a ray visits, nearest first.
+//
+// Both sides are visited unless the plane's parameter, with the margin for its rounding, says that
+// the side is certainly left before or entered after what is visited; so every closed cell that
+// holds a point of the ray is visited, those on both sides of a plane that the ray touches or lies
+// in (a NaN parameter) included.
+// Thread safety: pure.
+#pragma once
+
+#include <strahl/traverse/walk.h>
+
+namespace strahl {
+
+/// A plane and the nodes on its sides.
+struct PlaneNodes {
+  int axis;
+  double plane;
+  std::uint32_t below, above;
+};
+
+/// Writes the children to visit and returns their number. The near one is on the side the ray
+/// comes from. Comparisons hold for NaN.
+inline int cross_plane(const PreparedRay& ray, const PlaneNodes& at, const Interval& span,
+                       NodeVisit* children) {
+  // Parameters below 0 may keep the wrong side of the margin: intervals begin at 0.
+  const double first = ray.plane_first(at.axis, at.plane) * (1.0 - kPlaneMargin);
+  const double last = ray.plane_last(at.axis, at.plane) * (1.0 + kPlaneMargin);
+  const bool from_above = ray.negative[at.axis];
+  int count = 0;
+  if (!(span.t_enter > last)) {
+    const double t_exit = last < span.t_exit ? last : span.t_exit;
+    children[count++] = {from_above ? at.above : at.below, {span.t_enter, t_exit}};
+  }
+  if (!(span.t_exit < first)) {
+    const double t_enter = first > span.t_enter ? first : span.t_enter;
+    children[count++] = {from_above ? at.below : at.above, {t_enter, span.t_exit}};
+  }
+  return count;
+}
+
+}  // namespace strahl
