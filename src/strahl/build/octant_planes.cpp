@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <vector>
+
+#include <strahl/build/octant_planes.h>
+
+namespace strahl {
+namespace {
+
+/// Places where Octree-R looks, the middle and the median included.
+constexpr int kCandidates = 10;
+
+double center(const PrimRef& ref, int axis) {
+  return 0.5 * ref.box.lo[axis] + 0.5 * ref.box.hi[axis];
+}
+
+double median_center(std::span<const PrimRef> refs, int axis) {
+  std::vector<double> centers(refs.size());
+  std::transform(refs.begin(), refs.end(), centers.begin(),
+                 [axis](const PrimRef& ref) { return center(ref, axis); });
+  const auto median = centers.begin() + static_cast<std::ptrdiff_t>(centers.size() / 2);
+  std::nth_element(centers.begin(), median, centers.end());
+  return *median;
+}
+
+double cost_of(std::span<const PrimRef> refs, const Aabb& cell, int axis, double plane) {
+  std::size_t below = 0, above = 0;
+  for (const PrimRef& ref : refs) {
+    below += ref.box.lo[axis] <= plane;
+    above += ref.box.hi[axis] >= plane;
+  }
+  Aabb low = cell, high = cell;
+  low.hi[axis] = high.lo[axis] = plane;
+  return static_cast<double>(below) * low.half_area() +
+         static_cast<double>(above) * high.half_area();
+}
+
+double cheapest_plane(std::span<const PrimRef> refs, const Aabb& cell, int axis, double middle) {
+  if (refs.empty()) return middle;
+  const double median = median_center(refs, axis);
+  double best = middle, least = cost_of(refs, cell, axis, middle);
+  for (int i = 1; i < kCandidates; ++i) {
+    const double plane = middle + (median - middle) * i / (kCandidates - 1);
+    if (!(cell.lo[axis] < plane && plane < cell.hi[axis])) break;
+    const double cost = cost_of(refs, cell, axis, plane);
+    if (cost < least) best = plane, least = cost;
+  }
+  return best;
+}
+
+}  // namespace
+
+OctantPlanes find_octant_planes(std::span<const PrimRef> refs, const Aabb& cell,
+                                const OctantOptions& options, const OctantAxes& axes) {
+  OctantPlanes planes;
+  const double rim = options.place == OctantPlace::inner ? 0.5 * (options.looseness - 1.0) : 0.0;
+  for (int k = 0; k < axes.count; ++k) {
+    const int axis = axes[k];
+    double plane = 0.5 * cell.lo[axis] + 0.5 * cell.hi[axis];
+    if (!(cell.lo[axis] < plane && plane < cell.hi[axis])) continue;
+    if (options.split == OctantSplit::octree_r) plane = cheapest_plane(refs, cell, axis, plane);
+    planes.middle[axis] = plane;
+    planes.end[axis] = plane + rim * (plane - cell.lo[axis]);
+    planes.begin[axis] = plane - rim * (cell.hi[axis] - plane);
+    planes.is_found = true;
+  }
+  return planes;
+}
+
+}  // namespace strahl
