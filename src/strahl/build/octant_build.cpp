@@ -191,14 +191,18 @@ class OctantPolicy {
     half.refs.push_back(ref);
   }
 
+  /// What can be divided further shares the references that may still be added.
   void finish(double spare, std::pair<Work, Work>& halves) {
-    const auto below = static_cast<double>(halves.first.refs.size());
-    const auto above = static_cast<double>(halves.second.refs.size());
-    const double share = below + above > 0.0 ? below / (below + above) : 0.0;
+    const double below = divisible(halves.first), above = divisible(halves.second);
+    const double share = below > 0.0 ? below / (below + above) : 0.0;
     halves.first.spare = spare * share;
     halves.second.spare = spare * (1.0 - share);
     for (Work* half : {&halves.first, &halves.second})
       half->lease = MemoryLease(meter_, half->refs.capacity() * sizeof(PrimRef));
+  }
+  double divisible(const Work& half) const {
+    const std::size_t count = half.refs.size();
+    return count > static_cast<std::size_t>(options_.max_prims) ? static_cast<double>(count) : 0.0;
   }
 
   void add_node(bool is_inner, const std::vector<std::uint32_t>& references, Output& out) {

@@ -9,34 +9,33 @@ namespace {
 /// Places where Octree-R looks, the middle and the median included.
 constexpr int kCandidates = 10;
 
-double center(const PrimRef& ref, int axis) {
-  return 0.5 * ref.box.lo[axis] + 0.5 * ref.box.hi[axis];
-}
-
-double median_center(std::span<const PrimRef> refs, int axis) {
+double median_center(std::span<const PrimRef> refs, const Aabb& cell, int axis) {
   std::vector<double> centers(refs.size());
-  std::transform(refs.begin(), refs.end(), centers.begin(),
-                 [axis](const PrimRef& ref) { return center(ref, axis); });
+  std::transform(refs.begin(), refs.end(), centers.begin(), [&](const PrimRef& ref) {
+    return Aabb::intersection(ref.box, cell).center()[axis];
+  });
   const auto median = centers.begin() + static_cast<std::ptrdiff_t>(centers.size() / 2);
   std::nth_element(centers.begin(), median, centers.end());
   return *median;
 }
 
+/// What [Havran1999] prints: the face parallel to the plane is counted once, the others twice.
 double cost_of(std::span<const PrimRef> refs, const Aabb& cell, int axis, double plane) {
   std::size_t below = 0, above = 0;
   for (const PrimRef& ref : refs) {
     below += ref.box.lo[axis] <= plane;
     above += ref.box.hi[axis] >= plane;
   }
-  Aabb low = cell, high = cell;
-  low.hi[axis] = high.lo[axis] = plane;
-  return static_cast<double>(below) * low.half_area() +
-         static_cast<double>(above) * high.half_area();
+  const Vec3d size = cell.extent();
+  const double b = size[(axis + 1) % 3], c = size[(axis + 2) % 3];
+  const auto area = [b, c](double t) { return 2.0 * t * (b + c) + b * c; };
+  return static_cast<double>(below) * area(plane - cell.lo[axis]) +
+         static_cast<double>(above) * area(cell.hi[axis] - plane);
 }
 
 double cheapest_plane(std::span<const PrimRef> refs, const Aabb& cell, int axis, double middle) {
   if (refs.empty()) return middle;
-  const double median = median_center(refs, axis);
+  const double median = median_center(refs, cell, axis);
   double best = middle, least = cost_of(refs, cell, axis, middle);
   for (int i = 1; i < kCandidates; ++i) {
     const double plane = middle + (median - middle) * i / (kCandidates - 1);

@@ -2,7 +2,7 @@
 //
 // Source: the middle [Glassner1984]; Octree-R [Whang1995] with the candidates and the cost of
 //   [Havran1999]: ten places from the middle of the cell to the median of the primitives, axes
-//   independent of each other; a half costs the primitives in it, cut ones included, times its
+//   independent of each other; a half costs the primitives in it, cut ones included, times an
 //   area.
 // Thread safety: pure functions.
 #pragma once

@@ -75,7 +75,7 @@ OptionTable<O> octant_fields() {
       option<O>("max_depth", &O::max_depth, 0, kMaxOctantDepth,
                 "depth of leaves at most; 0: by the number of primitives"),
       option<O>("max_prims", &O::max_prims, 1, 1000000, "primitives that are never divided"),
-      option<O>("max_growth", &O::max_growth, 1.0, 1000.0,
+      option<O>("max_growth", &O::max_growth, 1.0, 1000000.0,
                 "references per primitive at most; cells share what is left by their contents"),
   };
 }

@@ -61,9 +61,9 @@ class OctantView {
   template <class C>
   int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* children, C&) const {
     const std::uint32_t block = tree_.node(at.node).block;
-    children[0] = {0, at.span};
-    int count = 1;
-    for (int k = 0; k < kAxes; ++k) count = cut(ray, block, k, children, count);
+    const Crossings planes = crossings(ray, block);
+    int count = follow(planes, at.span, children);
+    if (count == 0) count = combine(planes, at.span, children);
     const std::uint32_t first = tree_.child(block), flip = near_child(ray);
     for (int i = 0; i < count; ++i) children[i].node = first + (children[i].node ^ flip);
     return count;
@@ -79,30 +79,72 @@ class OctantView {
   }
 
  private:
-  /// Cuts the parts so far by the plane of one axis: near and far parts of each, in order.
-  int cut(const PreparedRay& ray, std::uint32_t block, int k, NodeVisit* parts, int count) const {
-    const int axis = tree_.axes()[k];
-    const double end = tree_.end(block)[axis], begin = tree_.begin(block)[axis];
-    const bool neg = ray.negative[axis];
-    const double first = ray.plane_first(axis, neg ? end : begin) * (1.0 - kPlaneMargin);
-    const double last = ray.plane_last(axis, neg ? begin : end) * (1.0 + kPlaneMargin);
-    std::array<NodeVisit, kMaxChildren> whole;
-    for (int i = 0; i < count; ++i) whole[static_cast<std::size_t>(i)] = parts[i];
-    int made = 0;
-    for (int i = 0; i < count; ++i) {
-      const NodeVisit& part = whole[static_cast<std::size_t>(i)];
-      // Comparisons hold for NaN. Parameters below 0 may keep the wrong side of the margin:
-      // intervals begin at 0.
-      if (!(part.span.t_enter > last)) {
-        const double t_exit = last < part.span.t_exit ? last : part.span.t_exit;
-        parts[made++] = {part.node << 1, {part.span.t_enter, t_exit}};
-      }
-      if (!(part.span.t_exit < first)) {
-        const double t_enter = first > part.span.t_enter ? first : part.span.t_enter;
-        parts[made++] = {part.node << 1 | 1u, {t_enter, part.span.t_exit}};
+  /// Per divided axis, when the far half may be entered and when the near one is left.
+  struct Crossings {
+    std::array<double, kAxes> first, last;
+  };
+  static constexpr std::uint32_t far_bit(int k) { return 1u << (kAxes - 1 - k); }
+
+  Crossings crossings(const PreparedRay& ray, std::uint32_t block) const {
+    const Vec3d &end = tree_.end(block), &begin = tree_.begin(block);
+    Crossings planes;
+    for (int k = 0; k < kAxes; ++k) {
+      const int axis = tree_.axes()[k];
+      const bool neg = ray.negative[axis];
+      // Parameters below 0 may keep the wrong side of the margin: intervals begin at 0.
+      planes.first[static_cast<std::size_t>(k)] =
+          ray.plane_first(axis, neg ? end[axis] : begin[axis]) * (1.0 - kPlaneMargin);
+      planes.last[static_cast<std::size_t>(k)] =
+          ray.plane_last(axis, neg ? begin[axis] : end[axis]) * (1.0 + kPlaneMargin);
+    }
+    return planes;
+  }
+
+  /// The children one after the other, where no two planes are crossed at once: from that in which
+  /// the ray enters to the next by the plane crossed next. 0 where that is not certain, NaN
+  /// included.
+  int follow(const Crossings& planes, const Interval& span, NodeVisit* children) const {
+    std::array<std::size_t, kAxes> next;
+    std::size_t crossed = 0;
+    std::uint32_t place = 0;
+    for (std::size_t k = 0; k < kAxes; ++k) {
+      if (planes.last[k] < span.t_enter) {
+        place |= far_bit(static_cast<int>(k));
+      } else if (!(span.t_exit < planes.first[k])) {
+        if (!(span.t_enter < planes.first[k])) return 0;
+        std::size_t i = crossed++;
+        for (; i > 0 && planes.first[k] < planes.first[next[i - 1]]; --i) next[i] = next[i - 1];
+        next[i] = k;
       }
     }
-    return made;
+    for (std::size_t i = 1; i < crossed; ++i)
+      if (!(planes.last[next[i - 1]] < planes.first[next[i]])) return 0;
+    double t_enter = span.t_enter;
+    for (std::size_t i = 0; i < crossed; ++i) {
+      const double last = planes.last[next[i]];
+      children[i] = {place, {t_enter, last < span.t_exit ? last : span.t_exit}};
+      place |= far_bit(static_cast<int>(next[i])), t_enter = planes.first[next[i]];
+    }
+    children[crossed] = {place, {t_enter, span.t_exit}};
+    return static_cast<int>(crossed) + 1;
+  }
+
+  /// All children whose intervals have a common parameter. Comparisons hold for NaN.
+  int combine(const Crossings& planes, const Interval& span, NodeVisit* children) const {
+    int count = 0;
+    for (std::uint32_t place = 0; place < kMaxChildren; ++place) {
+      Interval in = span;
+      for (int k = 0; k < kAxes; ++k) {
+        const double first = planes.first[static_cast<std::size_t>(k)];
+        const double last = planes.last[static_cast<std::size_t>(k)];
+        if ((place & far_bit(k)) != 0)
+          in.t_enter = first > in.t_enter ? first : in.t_enter;
+        else
+          in.t_exit = last < in.t_exit ? last : in.t_exit;
+      }
+      if (!(in.t_enter > in.t_exit)) children[count++] = {place, in};
+    }
+    return count;
   }
 
   /// Place of the child in which all halves are near.
