@@ -46,7 +46,7 @@ class OctantPolicy {
         meter_(context, what),
         total_(primitives),
         is_inner_(options.place == OctantPlace::inner),
-        max_depth_(octant_depth_limit(options, axes, primitives)) {}
+        max_depth_(octant_depth_limit(options, primitives)) {}
 
   Work make_root(std::vector<PrimRef> refs, const Aabb& cell) {
     Work work;
@@ -249,9 +249,9 @@ Aabb octant_root(const Aabb& box, const OctantOptions& options) {
   return Aabb::join(root, box);
 }
 
-int octant_depth_limit(const OctantOptions& options, const OctantAxes&, std::size_t primitives) {
+int octant_depth_limit(const OctantOptions& options, std::size_t primitives) {
   if (options.max_depth > 0) return options.max_depth;
-  return std::min(kMaxOctantDepth, 2 + static_cast<int>(std::bit_width(primitives)) / 2);
+  return std::min(kMaxOctantDepth, 5 + (static_cast<int>(std::bit_width(primitives)) + 1) / 2);
 }
 
 OctantParts build_octants(const PrimitiveSource& source, std::vector<PrimRef> refs,

@@ -67,7 +67,7 @@ OctantTree::OctantTree(const PrimitiveSource& source, const OctantOptions& optio
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   for (const PrimRef& ref : refs) box_.extend(ref.box);
   root_ = octant_root(box_, options);
-  max_depth_ = octant_depth_limit(options, axes, refs.size());
+  max_depth_ = octant_depth_limit(options, refs.size());
   stride_ = options.place == OctantPlace::inner && options.looseness > 1.0 ? 2 : 1;
   OctantParts parts = build_octants(source, std::move(refs), root_, options, axes, context, what);
   if (parts.nodes.size() > UINT32_MAX || parts.references.size() > UINT32_MAX)

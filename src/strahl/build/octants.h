@@ -35,7 +35,7 @@ enum class OctantTraversal { parametric, neighbour };
 /// Defaults are measured, see structures/octree/README.md.
 struct OctantOptions {
   OctantPlace place = OctantPlace::leaves;
-  OctantSplit split = OctantSplit::middle;
+  OctantSplit split = OctantSplit::octree_r;
   OctantTraversal traversal = OctantTraversal::parametric;
   double looseness = 1.0;
   bool exact = true;
@@ -43,7 +43,7 @@ struct OctantOptions {
   double padding = 0.001;
   int max_depth = 0;
   int max_prims = 4;
-  double max_growth = 32.0;
+  double max_growth = 8.0;
 };
 
 /// Deepest leaf a tree may have, the root having depth 0.
@@ -73,7 +73,7 @@ OptionTable<O> octant_fields() {
       option<O>("padding", &O::padding, 0.0, 1.0,
                 "part of its size by which the root cell is larger than the scene on each side"),
       option<O>("max_depth", &O::max_depth, 0, kMaxOctantDepth,
-                "depth of leaves at most; 0: by the number of primitives"),
+                "depth of leaves at most; 0: 6 + log4 of the primitives"),
       option<O>("max_prims", &O::max_prims, 1, 1000000, "primitives that are never divided"),
       option<O>("max_growth", &O::max_growth, 1.0, 1000000.0,
                 "references per primitive at most; cells share what is left by their contents"),
@@ -173,9 +173,8 @@ Aabb octant_half(const Aabb& cell, int axis, bool is_above, const Vec3d& begin, 
 /// Root cell of a tree over primitives in box.
 Aabb octant_root(const Aabb& box, const OctantOptions& options);
 
-/// Depth at which cells are no longer divided: the option, or a rule by the number of primitives.
-int octant_depth_limit(const OctantOptions& options, const OctantAxes& axes,
-                       std::size_t primitives);
+/// Depth at which cells are no longer divided: the option, or 6 + log4(n), rounded down.
+int octant_depth_limit(const OctantOptions& options, std::size_t primitives);
 
 /// Nodes and references over refs. Strict cells tile root.
 OctantParts build_octants(const PrimitiveSource& source, std::vector<PrimRef> refs,

@@ -53,7 +53,7 @@ TEST(Quadtree, AnEmptySceneHasAnEmptyLeaf) {
 
 /// Inner cells have four children each, so leaves are three times as many and one.
 TEST(Quadtree, DividesCellsIntoFour) {
-  for (const char* options : {"", ",place=inner", ",split=octree_r", ",place=inner,looseness=2"}) {
+  for (const char* options : {"", ",place=inner", ",split=middle", ",place=inner,looseness=2"}) {
     const auto tree = build(soup(), std::string("quadtree:max_prims=1") + options);
     EXPECT_NO_THROW(tree->validate());
     const BuildReport& report = tree->report();
@@ -83,11 +83,11 @@ TEST(Quadtree, DividesAFlatSceneOnlyWhereItIsWide) {
           {at + Vec3d{0.2, 0.2, 0}, at + Vec3d{0.8, 0.2, 0}, at + Vec3d{0.2, 0.8, 0.01}});
     }
   const ScenePtr scene = triangles(tiles);
-  const auto quad = build(scene, "quadtree:max_prims=1");
+  const auto quad = build(scene, "quadtree:max_prims=1,split=middle");
   EXPECT_EQ(quad->report().leaves, 256u);
   EXPECT_EQ(quad->report().references, 256u);
   EXPECT_EQ(quad->report().depth, 4u);
-  EXPECT_GE(build(scene, "octree:max_prims=1")->report().references, 512u);
+  EXPECT_GE(build(scene, "octree:max_prims=1,split=middle")->report().references, 512u);
 }
 
 }  // namespace
