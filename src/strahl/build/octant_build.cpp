@@ -72,9 +72,11 @@ class OctantPolicy {
 
   std::size_t open(const Work& work, int, Output& out) {
     if (work.divided == 0) {
-      meter_.take(kGrowth * sizeof(Vec3d));
-      out.planes.push_back(work.planes.end);
-      if (is_inner_ && options_.looseness > 1.0) out.planes.push_back(work.planes.begin);
+      const OctantPlanes& p = work.planes;
+      meter_.take(kGrowth * octant_stride(options_) * sizeof(Vec3d));
+      out.planes.push_back(p.end);
+      if (octant_stride(options_) > 1)
+        out.planes.insert(out.planes.end(), {p.low, p.high, p.begin});
       add_node(true, work.own, out);
     }
     return 0;  // children are found by their order
@@ -128,7 +130,8 @@ class OctantPolicy {
       if (hi < planes.begin[axis]) return Half::below;
       return lo > planes.end[axis] ? Half::above : Half::both;
     }
-    const bool fits_below = hi <= planes.end[axis], fits_above = lo >= planes.begin[axis];
+    const bool fits_below = planes.low[axis] <= lo && hi <= planes.end[axis];
+    const bool fits_above = planes.begin[axis] <= lo && hi <= planes.high[axis];
     if (!fits_below && !fits_above) return Half::neither;
     if (fits_below && fits_above)
       return 0.5 * lo + 0.5 * hi <= planes.middle[axis] ? Half::below : Half::above;
@@ -174,8 +177,12 @@ class OctantPolicy {
   }
 
   void prepare(const Work& parent, int axis, bool is_above, Work& half) const {
-    half.cell =
-        octant_half(parent.cell, axis, is_above, parent.planes.middle, parent.planes.middle);
+    half.cell = parent.cell;
+    const double plane = parent.planes.middle[axis];
+    if (is_above)
+      half.cell.lo[axis] = plane;
+    else
+      half.cell.hi[axis] = std::min(half.cell.hi[axis], plane);
     half.planes = parent.planes;
     const bool is_child = parent.divided + 1 == axes_.count;
     half.divided = is_child ? 0 : parent.divided + 1;
@@ -227,13 +234,8 @@ class OctantPolicy {
 
 }  // namespace
 
-Aabb octant_half(const Aabb& cell, int axis, bool is_above, const Vec3d& begin, const Vec3d& end) {
-  Aabb half = cell;
-  if (is_above)
-    half.lo[axis] = std::max(half.lo[axis], begin[axis]);
-  else
-    half.hi[axis] = std::min(half.hi[axis], end[axis]);
-  return half;
+std::uint32_t octant_stride(const OctantOptions& options) {
+  return options.place == OctantPlace::inner && options.looseness > 1.0 ? 4 : 1;
 }
 
 Aabb octant_root(const Aabb& box, const OctantOptions& options) {

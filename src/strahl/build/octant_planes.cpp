@@ -60,6 +60,8 @@ OctantPlanes find_octant_planes(std::span<const PrimRef> refs, const Aabb& cell,
     planes.middle[axis] = plane;
     planes.end[axis] = plane + rim * (plane - cell.lo[axis]);
     planes.begin[axis] = plane - rim * (cell.hi[axis] - plane);
+    planes.low[axis] = cell.lo[axis] - rim * (plane - cell.lo[axis]);
+    planes.high[axis] = cell.hi[axis] + rim * (cell.hi[axis] - plane);
     planes.is_found = true;
   }
   return planes;

@@ -16,7 +16,8 @@ namespace strahl {
 /// Planes of a cell; infinite on axes that are not divided.
 struct OctantPlanes {
   Vec3d middle = Vec3d::all(Aabb::kInf);  ///< where the cell itself is divided
-  Vec3d begin = middle, end = middle;     ///< of the halves above and below, enlarged or not
+  Vec3d begin = middle, end = middle;     ///< inner sides of the halves above and below
+  Vec3d low = -middle, high = middle;     ///< outer sides of the halves below and above
   bool is_found = false;                  ///< on at least one axis
 };
 

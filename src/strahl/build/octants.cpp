@@ -37,13 +37,8 @@ class OctantLayout {
  private:
   void place_children(std::uint32_t block, const Aabb& reach, std::uint64_t depth) {
     const OctantAxes& axes = tree_.axes_;
-    for (std::uint32_t c = 0; c < axes.children(); ++c) {
-      Aabb part = reach;
-      for (int k = 0; k < axes.count; ++k)
-        part =
-            octant_half(part, axes[k], axes.is_above(c, k), tree_.begin(block), tree_.end(block));
-      place(tree_.child(block) + c, part, depth + 1);
-    }
+    for (std::uint32_t c = 0; c < axes.children(); ++c)
+      place(tree_.child(block) + c, tree_.part(reach, block, c), depth + 1);
   }
 
   void survey(const OctantParts::Node& part, const Aabb& reach, std::uint64_t depth) {
@@ -68,7 +63,7 @@ OctantTree::OctantTree(const PrimitiveSource& source, const OctantOptions& optio
   for (const PrimRef& ref : refs) box_.extend(ref.box);
   root_ = octant_root(box_, options);
   max_depth_ = octant_depth_limit(options, refs.size());
-  stride_ = options.place == OctantPlace::inner && options.looseness > 1.0 ? 2 : 1;
+  stride_ = octant_stride(options);
   OctantParts parts = build_octants(source, std::move(refs), root_, options, axes, context, what);
   if (parts.nodes.size() > UINT32_MAX || parts.references.size() > UINT32_MAX)
     throw Error(ErrorCode::resource, "needs more than 2^32 cells or references", what);
@@ -80,6 +75,19 @@ OctantTree::OctantTree(const PrimitiveSource& source, const OctantOptions& optio
   report_.bytes = nodes_.capacity() * sizeof(OctantNode) + planes_.capacity() * sizeof(Vec3d) +
                   (references_.capacity() + parents_.capacity()) * sizeof(std::uint32_t) +
                   reaches_.capacity() * sizeof(Aabb);
+}
+
+Aabb OctantTree::part(const Aabb& whole, std::uint32_t block, std::uint32_t place) const {
+  Aabb part = whole;
+  for (int k = 0; k < axes_.count; ++k) {
+    const int axis = axes_[k];
+    const bool is_above = axes_.is_above(place, k);
+    if (is_above || is_loose())
+      part.lo[axis] = std::max(part.lo[axis], is_above ? begin(block)[axis] : low(block)[axis]);
+    if (!is_above || is_loose())
+      part.hi[axis] = std::min(part.hi[axis], is_above ? high(block)[axis] : end(block)[axis]);
+  }
+  return part;
 }
 
 void OctantTree::hash_into(Hash64& hash) const {

@@ -7,12 +7,12 @@
 //   plane, 1 for the half above. Blocks are numbered depth first; block 0 belongs to the root, node
 //   0.
 // Invariants: a half below a plane holds nothing above OctantTree::end(), one above nothing below
-//   begin(); begin <= end, so halves cover their parent. An axis that cannot be divided (no double
-//   lies strictly inside the cell) has its planes at infinity and nothing above them.
-//   In leaves: a primitive is referred to by every closed leaf cell that its box touches, with
-//   `exact` that it touches itself. At inner nodes: it is referred to once, by the node that no
-//   child of which encloses its box. References of a node ascend.
-// Differs: on sides where a cell has no sibling, an enlarged cell ends where its parent does.
+//   begin(); begin <= end, so halves cover their parent. Enlarged halves also begin at low() and
+//   end at high(). An axis that cannot be divided (no double lies strictly inside the cell) has its
+//   planes at infinity and nothing above them. In leaves: a primitive is referred to by every
+//   closed leaf cell that its box touches, with `exact` that it touches itself. At inner nodes: it
+//   is referred to once, by the node that no child of which encloses its box. References of a node
+//   ascend.
 // Thread safety: trees are read-only after the build.
 #pragma once
 
@@ -113,7 +113,7 @@ struct OctantParts {
   std::vector<std::uint32_t> references;
 };
 
-/// Cells, planes and references. 12 bytes per cell, 24 or 48 per inner one, 4 per reference.
+/// Cells, planes and references. 12 bytes per cell, 24 or 96 per inner one, 4 per reference.
 class OctantTree {
  public:
   OctantTree() = default;
@@ -135,6 +135,12 @@ class OctantTree {
   /// Where halves below the planes of a block end and where those above begin.
   const Vec3d& end(std::uint32_t block) const { return planes_[block * stride_]; }
   const Vec3d& begin(std::uint32_t block) const { return planes_[block * stride_ + stride_ - 1]; }
+  bool is_loose() const { return stride_ > 1; }
+  /// Where halves below begin and those above end. Requires: is_loose().
+  const Vec3d& low(std::uint32_t block) const { return planes_[block * stride_ + 1]; }
+  const Vec3d& high(std::uint32_t block) const { return planes_[block * stride_ + 2]; }
+  /// The part of `whole` in a child, by its place in its block.
+  Aabb part(const Aabb& whole, std::uint32_t block, std::uint32_t place) const;
 
   /// Block that the node is a child in. Requires: not the root.
   std::uint32_t block_of(std::uint32_t index) const { return (index - 1) >> axes_.count; }
@@ -167,8 +173,8 @@ class OctantTree {
   BuildReport report_;
 };
 
-/// Half of a cell on one axis: what lies in it touches the closed range up to or from the plane.
-Aabb octant_half(const Aabb& cell, int axis, bool is_above, const Vec3d& begin, const Vec3d& end);
+/// Planes per axis and block: one, or four of enlarged cells.
+std::uint32_t octant_stride(const OctantOptions& options);
 
 /// Root cell of a tree over primitives in box.
 Aabb octant_root(const Aabb& box, const OctantOptions& options);

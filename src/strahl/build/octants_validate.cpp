@@ -66,7 +66,7 @@ class OctantChecker {
       demand(tree_.reaches_.at(block) == at.reach, "a block does not know its reach");
     }
     if (is_inner_)
-      check_own(tree_.references(index), block);
+      check_own(tree_.references(index), block, at.reach);
     else
       demand(tree_.nodes_[index].count == 0, "an inner node has references");
     for (std::uint32_t c = 0; c < tree_.axes_.children(); ++c) {
@@ -76,14 +76,7 @@ class OctantChecker {
   }
 
   Place child_of(const Place& at, std::uint32_t block, std::uint32_t child) const {
-    const Vec3d &end = tree_.end(block), &begin = tree_.begin(block);
-    Place part{at.cell, at.reach, at.depth + 1};
-    for (int k = 0; k < tree_.axes_.count; ++k) {
-      const bool is_above = tree_.axes_.is_above(child, k);
-      part.reach = octant_half(part.reach, tree_.axes_[k], is_above, begin, end);
-      part.cell = octant_half(part.cell, tree_.axes_[k], is_above, begin, end);
-    }
-    return part;
+    return {tree_.part(at.cell, block, child), tree_.part(at.reach, block, child), at.depth + 1};
   }
 
   void check_planes(std::uint32_t block, const Aabb& cell) const {
@@ -119,15 +112,12 @@ class OctantChecker {
   }
 
   /// None of an inner node's own primitives may fit into a child.
-  void check_own(std::span<const std::uint32_t> own, std::uint32_t block) const {
+  void check_own(std::span<const std::uint32_t> own, std::uint32_t block, const Aabb& reach) const {
     for (const std::uint32_t i : own) {
       const Aabb box = source_.bounds(i);
-      bool fits = true;
-      for (int k = 0; k < tree_.axes_.count; ++k) {
-        const int axis = tree_.axes_[k];
-        fits &= box.hi[axis] <= tree_.end(block)[axis] || box.lo[axis] >= tree_.begin(block)[axis];
-      }
-      demand(!fits, "a child encloses what its parent refers to");
+      for (std::uint32_t c = 0; c < tree_.axes_.children(); ++c)
+        demand(!tree_.part(reach, block, c).contains(box),
+               "a child encloses what its parent refers to");
     }
   }
 

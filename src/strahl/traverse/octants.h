@@ -62,8 +62,14 @@ class OctantView {
   int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* children, C&) const {
     const std::uint32_t block = tree_.node(at.node).block;
     const Crossings planes = crossings(ray, block);
-    int count = follow(planes, at.span, children);
-    if (count == 0) count = combine(planes, at.span, children);
+    int count = 0;
+    if (tree_.is_loose()) {
+      const Crossings sides = outer_crossings(ray, block);
+      count = combine<true>(planes, sides, at.span, children);
+    } else {
+      count = follow(planes, at.span, children);
+      if (count == 0) count = combine<false>(planes, planes, at.span, children);
+    }
     const std::uint32_t first = tree_.child(block), flip = near_child(ray);
     for (int i = 0; i < count; ++i) children[i].node = first + (children[i].node ^ flip);
     return count;
@@ -86,7 +92,14 @@ class OctantView {
   static constexpr std::uint32_t far_bit(int k) { return 1u << (kAxes - 1 - k); }
 
   Crossings crossings(const PreparedRay& ray, std::uint32_t block) const {
-    const Vec3d &end = tree_.end(block), &begin = tree_.begin(block);
+    return between(ray, tree_.begin(block), tree_.end(block));
+  }
+  /// Of enlarged cells: when the near half may be entered and when the far one is left.
+  Crossings outer_crossings(const PreparedRay& ray, std::uint32_t block) const {
+    return between(ray, tree_.low(block), tree_.high(block));
+  }
+  /// From `begin` or later to `end` or before; per axis the other way round where the ray descends.
+  Crossings between(const PreparedRay& ray, const Vec3d& begin, const Vec3d& end) const {
     Crossings planes;
     for (int k = 0; k < kAxes; ++k) {
       const int axis = tree_.axes()[k];
@@ -130,22 +143,24 @@ class OctantView {
   }
 
   /// All children whose intervals have a common parameter. Comparisons hold for NaN.
-  int combine(const Crossings& planes, const Interval& span, NodeVisit* children) const {
+  template <bool kLoose>
+  int combine(const Crossings& planes, const Crossings& sides, const Interval& span,
+              NodeVisit* children) const {
     int count = 0;
     for (std::uint32_t place = 0; place < kMaxChildren; ++place) {
       Interval in = span;
       for (int k = 0; k < kAxes; ++k) {
-        const double first = planes.first[static_cast<std::size_t>(k)];
-        const double last = planes.last[static_cast<std::size_t>(k)];
-        if ((place & far_bit(k)) != 0)
-          in.t_enter = first > in.t_enter ? first : in.t_enter;
-        else
-          in.t_exit = last < in.t_exit ? last : in.t_exit;
+        const auto axis = static_cast<std::size_t>(k);
+        const bool is_far = (place & far_bit(k)) != 0;
+        if (is_far || kLoose) begin_at(is_far ? planes.first[axis] : sides.first[axis], in);
+        if (!is_far || kLoose) end_at(is_far ? sides.last[axis] : planes.last[axis], in);
       }
       if (!(in.t_enter > in.t_exit)) children[count++] = {place, in};
     }
     return count;
   }
+  static void begin_at(double t, Interval& in) { in.t_enter = t > in.t_enter ? t : in.t_enter; }
+  static void end_at(double t, Interval& in) { in.t_exit = t < in.t_exit ? t : in.t_exit; }
 
   /// Place of the child in which all halves are near.
   std::uint32_t near_child(const PreparedRay& ray) const {
