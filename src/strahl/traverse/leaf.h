@@ -11,12 +11,19 @@ namespace strahl {
 /// Visits the references in order. True when the query stops the traversal.
 /// @param prims has visit(reference, ray, query, counters) -> stop
 template <class Prims, class Q, class C>
-bool test_leaf(std::span<const std::uint32_t> references, Prims& prims, const PreparedRay& ray,
-               Q& query, C& counters) {
-  counters.leaf_entered(references.empty());
+bool test_references(std::span<const std::uint32_t> references, Prims& prims,
+                     const PreparedRay& ray, Q& query, C& counters) {
   for (const std::uint32_t reference : references)
     if (prims.visit(reference, ray, query, counters)) return true;
   return false;
+}
+
+/// The same, counted as a leaf.
+template <class Prims, class Q, class C>
+bool test_leaf(std::span<const std::uint32_t> references, Prims& prims, const PreparedRay& ray,
+               Q& query, C& counters) {
+  counters.leaf_entered(references.empty());
+  return test_references(references, prims, ray, query, counters);
 }
 
 }  // namespace strahl

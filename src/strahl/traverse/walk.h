@@ -34,6 +34,22 @@ concept WalkableTree = requires(const T& tree, const PreparedRay& ray, const Nod
   { tree.references(node) } -> std::same_as<std::span<const std::uint32_t>>;
 };
 
+/// A tree whose inner nodes, too, may have references, tested before their children.
+template <class T>
+concept HasInnerReferences = requires(const T& tree, std::uint32_t node) {
+  { tree.inner_references(node) } -> std::same_as<std::span<const std::uint32_t>>;
+};
+
+/// Tests what a node refers to. True when the query stops the traversal.
+template <WalkableTree Tree, class Prims, class Q, class C>
+bool visit_references(const Tree& tree, std::uint32_t node, Prims& prims, const PreparedRay& ray,
+                      Q& query, C& counters) {
+  if (tree.is_leaf(node)) return test_leaf(tree.references(node), prims, ray, query, counters);
+  if constexpr (HasInnerReferences<Tree>)
+    return test_references(tree.inner_references(node), prims, ray, query, counters);
+  return false;
+}
+
 /// Offers to the query every hit of the ray that it may want. Tree must not be empty.
 template <WalkableTree Tree, class Prims, class Q, class C>
 void walk(const Tree& tree, Prims& prims, const PreparedRay& ray, Q& query, C& counters) {
@@ -45,9 +61,8 @@ void walk(const Tree& tree, Prims& prims, const PreparedRay& ray, Q& query, C& c
   if (at.span.t_enter > at.span.t_exit) return;
   for (;;) {
     if (may_hit_before(at.span.t_enter, query.t_max())) {
-      if (tree.is_leaf(at.node)) {
-        if (test_leaf(tree.references(at.node), prims, ray, query, counters)) return;
-      } else {
+      if (visit_references(tree, at.node, prims, ray, query, counters)) return;
+      if (!tree.is_leaf(at.node)) {
         counters.traversal_step();
         std::array<NodeVisit, Tree::kMaxChildren> child;
         const int entered = tree.expand(ray, at, child.data(), counters);
