@@ -16,6 +16,16 @@
 //   it are visited. A ray inside a plane (direction 0, parameters NaN or infinite) has two slabs
 //   from beginning to end. Far origins and wide margins make the ranges long, in the limit the
 //   whole grid; nothing else changes. Comparisons are written so that NaN means "may".
+// Jumps: an action that knows the cells around one to be empty returns how far (CellJump). A jump
+//   changes what the sweep's state says - which slabs are open and when the next one is entered -
+//   to what it would be at a later t had the loop been stepped there: the slabs are found anew by
+//   the same comparisons of the same parameters, so ties, NaN, margins and the end of the traversal
+//   are those of steps. What must be shown is only that every cell in between is a known one.
+//   Numbers of slabs passed since the known cell bound the positions of these cells, and each known
+//   region holds, with a position, all positions nearer on every axis, so the last position
+//   decides. A guess of where the region ends is checked against it; a wrong one costs a step,
+//   nothing else. Regions that reach forward only, or that are rounded at their corners, are used
+//   where no slab that lies behind stays open until the next one is entered.
 // Invariants: enter and leave grow with the slab (planes are monotone and so is rounding), and
 //   leave of a slab is not before enter of the next, so oldest..newest is never empty.
 // Thread safety: pure; needs round-to-nearest.
@@ -23,8 +33,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include <strahl/math/ray.h>
 #include <strahl/math/uniform_cells.h>
@@ -40,6 +53,17 @@ struct CellVisit {
 
 /// What a cell action returns instead of a jump to end the traversal.
 inline constexpr int kStopCells = 0;
+
+/// How far two cells are from each other, d being the differences of their positions: the largest
+/// of |d|; their sum; the sum of d^2; or the largest of |d|, counting only cells that do not lie
+/// behind on any axis as the ray goes.
+enum class CellMetric { chessboard, city_block, euclid, octant };
+
+/// How far to jump: cells that are less than `distance` away need no visit.
+struct CellJump {
+  int distance;  ///< kStopCells, or 1 for the next cell
+  CellMetric metric = CellMetric::chessboard;
+};
 
 /// State of a sweep; use dda().
 template <class Cells>
@@ -65,10 +89,10 @@ class CellSweep {
   bool run(Action& action) {
     if (!(t_begin_ <= t_end_)) return false;
     for (int a = 0; a < 3; ++a) place(a, t_begin_, axis(a).first, axis(a).last);
-    int jump = visit(kNoAxis, t_begin_, action);
+    auto jump = visit(kNoAxis, t_begin_, action);
     note_alone();
-    while (jump != kStopCells) {
-      if (jump > 1 && !leap(jump)) return false;
+    while (distance_of(jump) != kStopCells) {
+      if (distance_of(jump) > 1 && !leap(jump)) return false;
       const int a = next_axis();
       const double t = axis(a).t_next;
       if (!(t <= t_end_)) return false;
@@ -88,6 +112,14 @@ class CellSweep {
   }
 
  private:
+  /// A number is short for a jump by the chessboard metric.
+  template <class Action>
+  using JumpOf =
+      std::conditional_t<std::is_same_v<std::invoke_result_t<Action&, const CellVisit&>, CellJump>,
+                         CellJump, int>;
+  static int distance_of(int jump) { return jump; }
+  static int distance_of(const CellJump& jump) { return jump.distance; }
+
   static constexpr int kNoAxis = 3;
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -151,13 +183,18 @@ class CellSweep {
   }
   /// Finds the slabs entered and not left at t; the newest is sought among from..to. The guess is
   /// off by about as many slabs as are open at once.
-  void place(int a, double t, int from, int to) {
-    Slabs& s = axis(a);
+  void place(int a, double t, int from, int to) { open_slabs(a, t, newest_at(a, t, from, to)); }
+  int newest_at(int a, double t, int from, int to) const {
+    const int step = axis(a).step;
     const auto [low, high] = std::minmax(from, to);
-    s.newest = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
-    while (s.newest != from && enters(a, s.newest) > t) s.newest -= s.step;
-    while (s.newest != to && !(enters(a, s.newest + s.step) > t)) s.newest += s.step;
-    s.oldest = s.newest;
+    int cell = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
+    while (cell != from && enters(a, cell) > t) cell -= step;
+    while (cell != to && !(enters(a, cell + step) > t)) cell += step;
+    return cell;
+  }
+  void open_slabs(int a, double t, int newest) {
+    Slabs& s = axis(a);
+    s.newest = s.oldest = newest;
     while (s.oldest != s.first && !(leaves(a, s.oldest - s.step) < t)) s.oldest -= s.step;
     note_planes(a);
   }
@@ -165,15 +202,15 @@ class CellSweep {
   /// Visits the open cells that lie in the newest slab of axis `fresh`, all if kNoAxis.
   /// Returns the jump allowed from here, 1 where several cells are open, or kStopCells.
   template <class Action>
-  int visit(int fresh, double t, Action& action) {
+  JumpOf<Action> visit(int fresh, double t, Action& action) {
     const bool is_one = (fresh == 0 || axis_[0].is_single()) &&
                         (fresh == 1 || axis_[1].is_single()) &&
                         (fresh == 2 || axis_[2].is_single());
     if (is_one) return visit_newest(t, action);
-    return visit_block(fresh, t, action) ? kStopCells : 1;
+    return {visit_block(fresh, t, action) ? kStopCells : 1};
   }
   template <class Action>
-  int visit_newest(double t, Action& action) const {
+  JumpOf<Action> visit_newest(double t, Action& action) const {
     const CellPosition at{axis_[0].newest, axis_[1].newest, axis_[2].newest};
     return action(CellVisit{at, cells_.index(at), t});
   }
@@ -186,7 +223,8 @@ class CellSweep {
       for (int y = from[1];; y += axis_[1].step) {
         for (int x = from[0];; x += axis_[0].step) {
           const CellPosition at{x, y, z};
-          if (action(CellVisit{at, cells_.index(at), t}) == kStopCells) return true;
+          const JumpOf<Action> jump = action(CellVisit{at, cells_.index(at), t});
+          if (distance_of(jump) == kStopCells) return true;
           if (x == axis_[0].newest) break;
         }
         if (y == axis_[1].newest) break;
@@ -216,6 +254,51 @@ class CellSweep {
     return true;
   }
 
+  bool leap(const CellJump& jump) {
+    if (jump.metric == CellMetric::chessboard) return leap(jump.distance);
+    const double t_step = axis(next_axis()).t_next;
+    if (!(t_alone_ < t_step)) return true;
+    if (jump.metric == CellMetric::octant) return leap(jump.distance);
+    glide(jump, t_step);
+    return true;
+  }
+
+  /// Moves on to about where the ray leaves the region. All cells until then are in it if the last
+  /// one is.
+  void glide(const CellJump& jump, double t_step) {
+    // In this order NaN stays NaN.
+    const double t = std::min(t_step + guess_way(jump, t_step), t_end_);
+    if (!(t > t_step)) return;
+    CellPosition newest;
+    std::int64_t distance = 0;
+    for (int a = 0; a < 3; ++a) {
+      const Slabs& s = axis(a);
+      const int cell = newest_at(a, t, s.newest, s.last);
+      const std::int64_t passed = std::abs(cell - s.newest);
+      distance += jump.metric == CellMetric::euclid ? passed * passed : passed;
+      newest[static_cast<std::size_t>(a)] = cell;
+    }
+    if (distance >= jump.distance) return;
+    for (int a = 0; a < 3; ++a) open_slabs(a, t, newest[static_cast<std::size_t>(a)]);
+    note_alone();
+  }
+
+  /// How far beyond t_step the region reaches: after x more, at most rate * x + begun slabs of an
+  /// axis are passed; their sum, or that of their squares, shall be below jump.distance.
+  double guess_way(const CellJump& jump, double t_step) const {
+    Vec3d rate, begun;
+    for (int a = 0; a < 3; ++a) {
+      if (!(axis(a).t_next < kInfinity)) continue;
+      rate[a] = std::abs(ray_.dir[a]) / (cells_.plane(a, 1) - cells_.plane(a, 0));
+      begun[a] = 1.0 - (axis(a).t_next - t_step) * rate[a];
+    }
+    const double most = jump.distance - 1.0;
+    if (jump.metric == CellMetric::city_block)
+      return (most - (begun.x + begun.y + begun.z)) / (rate.x + rate.y + rate.z);
+    const double rr = dot(rate, rate), rb = dot(rate, begun);
+    return (std::sqrt(rb * rb + rr * (most - dot(begun, begun))) - rb) / rr;
+  }
+
   const Cells& cells_;
   const PreparedRay& ray_;
   double t_begin_, t_end_;
@@ -223,10 +306,10 @@ class CellSweep {
   std::array<Slabs, 3> axis_;
 };
 
-/// Calls action(const CellVisit&) -> int for every cell that a point of the ray may lie in, each
-/// once, by ascending t_enter. The action returns kStopCells to end the traversal, else a jump:
-/// 1 for the next cell; d > 1 if all cells whose position differs by less than d on every axis need
-/// no visit (it is followed where just one cell is open, else taken for 1).
+/// Calls action(const CellVisit&) for every cell that a point of the ray may lie in, each
+/// once, by ascending t_enter. The action returns kStopCells to end the traversal, else a jump, as
+/// a CellJump or as its distance by the chessboard metric: 1 for the next cell; d > 1 if all cells
+/// less than d away need no visit (it is followed where just one cell is open, else taken for 1).
 /// @param cells has n(axis), plane(axis, i) monotone in i, guess(axis, x), index(position)
 /// @return whether the action stopped it. O(cells visited).
 template <class Cells, class Action>
