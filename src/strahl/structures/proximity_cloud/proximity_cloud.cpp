@@ -1,44 +1,69 @@
 #include <strahl/structures/proximity_cloud/proximity_cloud.h>
 
-#include <span>
-#include <stdexcept>
-
 namespace strahl {
 
 OptionTable<ProximityCloudOptions> option_fields(const ProximityCloudOptions*) {
-  return {option("box_first", &ProximityCloudOptions::box_first, "test the box around all first")};
+  using O = ProximityCloudOptions;
+  OptionTable<O> fields = cell_grid_fields<O>();
+  fields.push_back(
+      option("mailbox", &O::mailbox, "remember which primitives a ray was tested against"));
+  fields.push_back(
+      option("metric", &O::metric,
+             {{"chessboard", CellMetric::chessboard},
+              {"city_block", CellMetric::city_block},
+              {"euclid", CellMetric::euclid},
+              {"octant", CellMetric::octant}},
+             "how distances of cells are measured; octant: chessboard, in front only"));
+  fields.push_back(
+      option("min_jump", &O::min_jump, 2, 1024, "cells nearer than this are reached by steps"));
+  return fields;
 }
 
-ProximityCloud::ProximityCloud(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : box_first_(options.box_first) {
-  for (const PrimRef& ref : make_prim_refs(source, context)) {
-    box_.extend(ref.box);
-    references_.push_back(ref.reference);
+ProximityCloud::ProximityCloud(const PrimitiveSource& source, const Options& options,
+                               const BuildContext& context)
+    : metric_(options.metric),
+      least_jump_(metric_ == CellMetric::euclid ? options.min_jump * options.min_jump
+                                                : options.min_jump),
+      is_exact_(options.exact),
+      has_mailbox_(options.mailbox) {
+  // A list begins below 2^31, each with one more word.
+  const std::uint64_t most = kEmptyCell - 1 - static_cast<std::uint64_t>(options.max_cells);
+  take(make_cell_grid(source, options, most, kName, context), context);
+}
+
+void ProximityCloud::take(CellGrid&& grid, const BuildContext& context) {
+  cells_ = grid.cells;
+  report_ = report_of(grid);
+  const std::size_t count = cells_.count();
+  const std::uint64_t size = report_.references + count - report_.empty_leaves;
+  const std::uint64_t field = metric_ == CellMetric::octant ? 2 * count : 0;
+  context.require_memory(report_.bytes + 4 * size + field, "lists and distances");
+  lists_.reserve(size);
+  words_ = std::move(grid.lists.first);
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::uint32_t begin = words_[c], end = words_[c + 1];
+    words_[c] = begin == end;
+    if (begin == end) continue;
+    lists_.push_back(end - begin);
+    const auto list = grid.lists.references.begin();
+    lists_.insert(lists_.end(), list + begin, list + end);
   }
-}
-
-BuildReport ProximityCloud::report() const {
-  BuildReport report;
-  report.nodes = report.leaves = 1;
-  report.empty_leaves = references_.empty();
-  report.references = references_.size();
-  report.bytes = references_.capacity() * sizeof(std::uint32_t);
-  report.sah_cost = static_cast<double>(references_.size());
-  return report;
-}
-
-void ProximityCloud::validate(const PrimitiveSource& source) const {
-  std::size_t next = 0;
-  for (std::uint32_t i = 0; i < source.size(); ++i) {
-    const Aabb box = source.bounds(i);
-    if (box.is_empty()) continue;
-    if (next == references_.size() || references_[next++] != i || !box_.contains(box))
-      throw std::logic_error("proximity_cloud: a primitive that can be hit is not listed once in the box");
+  words_.pop_back();
+  fill_distance_words(cells_, metric_, context, words_);
+  std::uint32_t next = 0;
+  for (std::uint32_t& word : words_) {
+    if (word != 0) continue;
+    word = next;
+    next += 1 + lists_[next];
   }
+  report_.bytes = 4 * (words_.capacity() + lists_.capacity());
 }
 
 void ProximityCloud::hash_into(Hash64& hash) const {
-  hash.add(std::span<const std::uint32_t>(references_));
+  strahl::hash_into(hash, cells_);
+  hash.add(metric_);
+  hash.add(std::span<const std::uint32_t>(words_));
+  hash.add(std::span<const std::uint32_t>(lists_));
 }
 
 }  // namespace strahl
