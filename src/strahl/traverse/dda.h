@@ -63,6 +63,7 @@ enum class CellMetric { chessboard, city_block, euclid, octant };
 struct CellJump {
   int distance;  ///< kStopCells, or 1 for the next cell
   CellMetric metric = CellMetric::chessboard;
+  unsigned layers = 0;  ///< bit a: only of cells in the same slab of axis a so much is known
 };
 
 /// State of a sweep; use dda().
@@ -234,46 +235,54 @@ class CellSweep {
     return false;
   }
 
-  /// Moves on to where the ray first leaves the cells nearer than `jump` to the newest one. Open
-  /// slabs behind must be among them. False when the rest of the grid holds nothing else.
-  bool leap(int jump) {
+  /// Moves on to where the ray leaves the region of the jump, or about there. False when the rest
+  /// of the grid holds nothing else.
+  bool leap(const CellJump& jump) {
+    if (jump.metric == CellMetric::chessboard) return leave_box(jump);
+    const double t_step = axis(next_axis()).t_next;
+    if (!(t_alone_ < t_step)) return true;
+    if (jump.metric == CellMetric::octant) return leave_box(jump);
+    glide(jump, t_step);
+    return true;
+  }
+  bool leap(int jump) { return leave_box({jump}); }
+
+  static bool is_in_layer(const CellJump& jump, int a) { return (jump.layers >> a & 1) != 0; }
+
+  /// Exactly to where the ray leaves a box of cells. Open slabs behind must be in it.
+  bool leave_box(const CellJump& jump) {
+    std::array<int, 3> reach;
     double t_out = kInfinity;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
-      if ((s.newest - s.oldest) * s.step >= jump) return true;
-      if ((s.last - s.newest) * s.step < jump) continue;
-      t_out = std::min(t_out, enters(a, s.newest + jump * s.step));
+      const int known = is_in_layer(jump, a) ? 1 : jump.distance,
+                left = (s.last - s.newest) * s.step;
+      if ((s.newest - s.oldest) * s.step >= known) return true;
+      reach[static_cast<std::size_t>(a)] = std::min(known - 1, left);
+      if (left >= known) t_out = std::min(t_out, enters(a, s.newest + known * s.step));
     }
     if (!(t_out <= t_end_)) return false;
     for (int a = 0; a < 3; ++a) {
-      const Slabs& s = axis(a);
-      const int reach = std::min(jump - 1, (s.last - s.newest) * s.step);
-      place(a, t_out, s.newest, s.newest + reach * s.step);
+      const int newest = axis(a).newest;
+      place(a, t_out, newest, newest + reach[static_cast<std::size_t>(a)] * axis(a).step);
     }
     note_alone();
     return true;
   }
 
-  bool leap(const CellJump& jump) {
-    if (jump.metric == CellMetric::chessboard) return leap(jump.distance);
-    const double t_step = axis(next_axis()).t_next;
-    if (!(t_alone_ < t_step)) return true;
-    if (jump.metric == CellMetric::octant) return leap(jump.distance);
-    glide(jump, t_step);
-    return true;
-  }
-
-  /// Moves on to about where the ray leaves the region. All cells until then are in it if the last
-  /// one is.
+  /// About to where the ray leaves a region that is no box. All cells until then are in it if the
+  /// last one is.
   void glide(const CellJump& jump, double t_step) {
     // In this order NaN stays NaN.
-    const double t = std::min(t_step + guess_way(jump, t_step), t_end_);
+    double t = std::min(t_step + guess_way(jump, t_step), t_end_);
+    for (int a = 0; a < 3; ++a)
+      if (is_in_layer(jump, a)) t = std::min(t, axis(a).t_next);
     if (!(t > t_step)) return;
     CellPosition newest;
     std::int64_t distance = 0;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
-      const int cell = newest_at(a, t, s.newest, s.last);
+      const int cell = newest_at(a, t, s.newest, is_in_layer(jump, a) ? s.newest : s.last);
       const std::int64_t passed = std::abs(cell - s.newest);
       distance += jump.metric == CellMetric::euclid ? passed * passed : passed;
       newest[static_cast<std::size_t>(a)] = cell;
@@ -288,7 +297,7 @@ class CellSweep {
   double guess_way(const CellJump& jump, double t_step) const {
     Vec3d rate, begun;
     for (int a = 0; a < 3; ++a) {
-      if (!(axis(a).t_next < kInfinity)) continue;
+      if (is_in_layer(jump, a) || !(axis(a).t_next < kInfinity)) continue;
       rate[a] = std::abs(ray_.dir[a]) / (cells_.plane(a, 1) - cells_.plane(a, 0));
       begun[a] = 1.0 - (axis(a).t_next - t_step) * rate[a];
     }

@@ -14,7 +14,12 @@ bool is_inside(const UniformCells& cells, int axis, int i) { return i >= 0 && i 
 /// which all of these come before it: cells ascend on the axes where `order` is 1.
 template <class T>
 void lower_to_neighbours(const UniformCells& cells, std::span<T> field, const CellPosition& order,
-                         std::span<const CellPosition> steps, const BuildContext& context) {
+                         std::vector<CellPosition> steps, unsigned layers,
+                         const BuildContext& context) {
+  std::erase_if(steps, [&](const CellPosition& step) {
+    return (step[0] != 0 && (layers & 1) != 0) || (step[1] != 0 && (layers & 2) != 0) ||
+           (step[2] != 0 && (layers & 4) != 0);
+  });
   const auto nth = [&](std::size_t axis, int i) {
     return order[axis] > 0 ? i : cells.n(static_cast<int>(axis)) - 1 - i;
   };
@@ -47,12 +52,13 @@ std::vector<CellPosition> neighbours_before(int most) {
 }
 
 /// A shortest way to the nearest list goes through one neighbour that is before or after the cell.
-void measure_steps(const UniformCells& cells, CellMetric metric, const BuildContext& context,
+void measure_steps(const UniformCells& cells, const CellSpace& space, const BuildContext& context,
                    std::span<std::uint32_t> field) {
-  std::vector<CellPosition> steps = neighbours_before(metric == CellMetric::city_block ? 1 : 3);
-  lower_to_neighbours<std::uint32_t>(cells, field, {1, 1, 1}, steps, context);
+  std::vector<CellPosition> steps =
+      neighbours_before(space.metric == CellMetric::city_block ? 1 : 3);
+  lower_to_neighbours<std::uint32_t>(cells, field, {1, 1, 1}, steps, space.layers, context);
   for (CellPosition& step : steps) step = {-step[0], -step[1], -step[2]};
-  lower_to_neighbours<std::uint32_t>(cells, field, {-1, -1, -1}, steps, context);
+  lower_to_neighbours<std::uint32_t>(cells, field, {-1, -1, -1}, steps, space.layers, context);
 }
 
 /// Least over s of (p - s)^2 + f(s) for every p of a line, by the parabolas that are lowest there.
@@ -99,10 +105,11 @@ class LineEnvelope {
   std::vector<Parabola> parabolas_;
 };
 
-void measure_squares(const UniformCells& cells, const BuildContext& context,
+void measure_squares(const UniformCells& cells, unsigned layers, const BuildContext& context,
                      std::span<std::uint32_t> field) {
   LineEnvelope envelope(static_cast<std::size_t>(std::max({cells.n(0), cells.n(1), cells.n(2)})));
   for (int axis = 0; axis < 3; ++axis) {
+    if ((layers >> axis & 1) != 0) continue;
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int j = 0; j < cells.n(v); ++j) {
       context.check((axis + static_cast<double>(j) / cells.n(v)) / 3, kStage);
@@ -118,17 +125,17 @@ void measure_squares(const UniformCells& cells, const BuildContext& context,
 /// Adds the 3 bits of one octant to words that hold the chessboard distance. A shortest way into an
 /// octant goes through one of the 7 neighbours in it, which lie before the cell when it is scanned
 /// from its far end.
-void add_octant(const UniformCells& cells, unsigned octant, const BuildContext& context,
-                std::span<std::uint32_t> words, std::span<std::uint16_t> field) {
+void add_octant(const UniformCells& cells, unsigned octant, unsigned layers,
+                const BuildContext& context, std::span<std::uint32_t> words,
+                std::span<std::uint16_t> field) {
   constexpr std::uint16_t kOctantFar = 0x7fff;
   for (std::size_t i = 0; i < words.size(); ++i) field[i] = words[i] == 0 ? 0 : kOctantFar;
   CellPosition way, order;
   for (std::size_t a = 0; a < 3; ++a) way[a] = octant >> a & 1 ? -1 : 1, order[a] = -way[a];
-  std::array<CellPosition, 7> steps;
+  std::vector<CellPosition> steps;
   for (int k = 1; k < 8; ++k)
-    steps[static_cast<std::size_t>(k) - 1] = {way[0] * (k & 1), way[1] * (k >> 1 & 1),
-                                              way[2] * (k >> 2)};
-  lower_to_neighbours<std::uint16_t>(cells, field, order, steps, context);
+    steps.push_back({way[0] * (k & 1), way[1] * (k >> 1 & 1), way[2] * (k >> 2)});
+  lower_to_neighbours<std::uint16_t>(cells, field, order, std::move(steps), layers, context);
   for (std::size_t i = 0; i < words.size(); ++i) {
     if (words[i] == 0) continue;
     std::uint32_t code = 7;
@@ -139,18 +146,18 @@ void add_octant(const UniformCells& cells, unsigned octant, const BuildContext& 
 
 }  // namespace
 
-void fill_distance_words(const UniformCells& cells, CellMetric metric, const BuildContext& context,
-                         std::vector<std::uint32_t>& words) {
+void fill_distance_words(const UniformCells& cells, const CellSpace& space,
+                         const BuildContext& context, std::vector<std::uint32_t>& words) {
   for (std::uint32_t& word : words) word = word == 0 ? 0 : kFar;
-  if (metric == CellMetric::euclid)
-    measure_squares(cells, context, words);
+  if (space.metric == CellMetric::euclid)
+    measure_squares(cells, space.layers, context, words);
   else
-    measure_steps(cells, metric, context, words);
-  if (metric == CellMetric::octant) {
+    measure_steps(cells, space, context, words);
+  if (space.metric == CellMetric::octant) {
     for (std::uint32_t& word : words) word = std::min(word, kNearMask);
     std::vector<std::uint16_t> field(words.size());
     for (unsigned octant = 0; octant < 8; ++octant)
-      add_octant(cells, octant, context, words, field);
+      add_octant(cells, octant, space.layers, context, words, field);
   }
   for (std::uint32_t& word : words) word = word == 0 ? 0 : word | kEmptyCell;
 }

@@ -33,17 +33,23 @@ inline std::uint32_t octant_distance(std::uint32_t near, std::uint32_t code) {
   return near * kOctantHalves[code] / 2;
 }
 
+/// How distances are measured.
+struct CellSpace {
+  CellMetric metric;
+  unsigned layers;  ///< bit a: cells in other slabs of axis a are infinitely far
+};
+
 /// Distance in the word of an empty cell. @param octant bit a set if the ray goes down on axis a
-inline CellJump jump_of(std::uint32_t word, CellMetric metric, unsigned octant) {
-  const std::uint32_t distance = metric == CellMetric::octant
+inline CellJump jump_of(std::uint32_t word, const CellSpace& space, unsigned octant) {
+  const std::uint32_t distance = space.metric == CellMetric::octant
                                      ? octant_distance(word & kNearMask, octant_code(word, octant))
                                      : word & ~kEmptyCell;
-  return {static_cast<int>(distance), metric};
+  return {static_cast<int>(distance), space.metric, space.layers};
 }
 
 /// Replaces each word but 0 by that of an empty cell; 0 stands for a cell with a list, of which
 /// there must be one. O(cells). With octant another 2 bytes per cell are in use meanwhile.
-void fill_distance_words(const UniformCells& cells, CellMetric metric, const BuildContext& context,
-                         std::vector<std::uint32_t>& words);
+void fill_distance_words(const UniformCells& cells, const CellSpace& space,
+                         const BuildContext& context, std::vector<std::uint32_t>& words);
 
 }  // namespace strahl

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <strahl/structures/proximity_cloud/proximity_cloud.h>
 
 namespace strahl {
@@ -14,6 +16,8 @@ OptionTable<ProximityCloudOptions> option_fields(const ProximityCloudOptions*) {
               {"euclid", CellMetric::euclid},
               {"octant", CellMetric::octant}},
              "how distances of cells are measured; octant: chessboard, in front only"));
+  fields.push_back(option("thin", &O::thin, 0, 1024,
+                          "distances do not reach across slabs of axes with so few cells"));
   fields.push_back(
       option("min_jump", &O::min_jump, 2, 1024, "cells nearer than this are reached by steps"));
   return fields;
@@ -21,22 +25,25 @@ OptionTable<ProximityCloudOptions> option_fields(const ProximityCloudOptions*) {
 
 ProximityCloud::ProximityCloud(const PrimitiveSource& source, const Options& options,
                                const BuildContext& context)
-    : metric_(options.metric),
-      least_jump_(metric_ == CellMetric::euclid ? options.min_jump * options.min_jump
-                                                : options.min_jump),
+    : space_{options.metric, 0},
+      least_jump_(options.metric == CellMetric::euclid ? options.min_jump * options.min_jump
+                                                       : options.min_jump),
       is_exact_(options.exact),
       has_mailbox_(options.mailbox) {
   // A list begins below 2^31, each with one more word.
   const std::uint64_t most = kEmptyCell - 1 - static_cast<std::uint64_t>(options.max_cells);
-  take(make_cell_grid(source, options, most, kName, context), context);
+  take(make_cell_grid(source, options, most, kName, context), options.thin, context);
 }
 
-void ProximityCloud::take(CellGrid&& grid, const BuildContext& context) {
+void ProximityCloud::take(CellGrid&& grid, int thin, const BuildContext& context) {
   cells_ = grid.cells;
+  const int longest = std::max({cells_.n(0), cells_.n(1), cells_.n(2)});
+  for (int axis = 0; axis < 3; ++axis)
+    if (cells_.n(axis) <= thin && cells_.n(axis) < longest) space_.layers |= 1u << axis;
   report_ = report_of(grid);
   const std::size_t count = cells_.count();
   const std::uint64_t size = report_.references + count - report_.empty_leaves;
-  const std::uint64_t field = metric_ == CellMetric::octant ? 2 * count : 0;
+  const std::uint64_t field = space_.metric == CellMetric::octant ? 2 * count : 0;
   context.require_memory(report_.bytes + 4 * size + field, "lists and distances");
   lists_.reserve(size);
   words_ = std::move(grid.lists.first);
@@ -49,7 +56,7 @@ void ProximityCloud::take(CellGrid&& grid, const BuildContext& context) {
     lists_.insert(lists_.end(), list + begin, list + end);
   }
   words_.pop_back();
-  fill_distance_words(cells_, metric_, context, words_);
+  fill_distance_words(cells_, space_, context, words_);
   std::uint32_t next = 0;
   for (std::uint32_t& word : words_) {
     if (word != 0) continue;
@@ -61,7 +68,7 @@ void ProximityCloud::take(CellGrid&& grid, const BuildContext& context) {
 
 void ProximityCloud::hash_into(Hash64& hash) const {
   strahl::hash_into(hash, cells_);
-  hash.add(metric_);
+  hash.add(space_.metric), hash.add(space_.layers);
   hash.add(std::span<const std::uint32_t>(words_));
   hash.add(std::span<const std::uint32_t>(lists_));
 }

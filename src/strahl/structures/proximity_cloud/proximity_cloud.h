@@ -30,6 +30,7 @@ namespace strahl {
 struct ProximityCloudOptions : CellGridOptions {
   bool mailbox = true;
   CellMetric metric = CellMetric::octant;
+  int thin = 8;
   int min_jump = 2;
 };
 
@@ -87,15 +88,15 @@ class ProximityCloud {
     return {lists_.data() + word + 1, lists_[word]};
   }
   CellJump jump_from(std::uint32_t word, unsigned octant) const {
-    const CellJump jump = jump_of(word, metric_, octant);
+    const CellJump jump = jump_of(word, space_, octant);
     return jump.distance < least_jump_ ? CellJump{1} : jump;
   }
 
-  void take(CellGrid&& grid, const BuildContext& context);
+  void take(CellGrid&& grid, int thin, const BuildContext& context);
 
   UniformCells cells_;
   std::vector<std::uint32_t> words_, lists_;
-  CellMetric metric_;
+  CellSpace space_;
   int least_jump_;  ///< a shorter one is a step
   bool is_exact_, has_mailbox_;
   BuildReport report_;

@@ -17,8 +17,8 @@ void demand(bool holds, const char* broken) {
 class DistanceChecker {
  public:
   DistanceChecker(const UniformCells& cells, const std::vector<std::uint32_t>& words,
-                  CellMetric metric)
-      : cells_(cells), words_(words), metric_(metric), lists_before_(words.size() + 1) {
+                  const CellSpace& space)
+      : cells_(cells), words_(words), space_(space), lists_before_(words.size() + 1) {
     for (std::size_t c = 0; c < words.size(); ++c)
       lists_before_[c + 1] = lists_before_[c] + ((words[c] & kEmptyCell) == 0);
   }
@@ -34,9 +34,10 @@ class DistanceChecker {
   void check(const CellPosition& at) const {
     const std::uint32_t word = words_[cells_.index(at)];
     if ((word & kEmptyCell) == 0) return;
-    const bool is_octant = metric_ == CellMetric::octant;
+    const bool is_octant = space_.metric == CellMetric::octant;
     const std::uint32_t near = is_octant ? word & kNearMask : word & ~kEmptyCell;
     demand(!has_list_within(at, near, kAround), "a list is nearer than a distance");
+    // A row or layer may have no list at all.
     if (!(is_octant && near == kNearMask) && near < kFar)
       demand(has_list_within(at, near + 1, kAround), "a distance is too small");
     for (unsigned octant = 0; is_octant && octant < 8; ++octant) {
@@ -68,6 +69,7 @@ class DistanceChecker {
   }
 
   CellRange around(int axis, int i, int reach, unsigned octant) const {
+    if ((space_.layers >> axis & 1) != 0) return {i, i};
     const bool goes_down = octant == kAround || (octant >> axis & 1) != 0;
     const bool goes_up = octant == kAround || !goes_down;
     return {goes_down ? std::max(0, i - reach) : i,
@@ -77,8 +79,8 @@ class DistanceChecker {
   /// Cells on each side of the middle of a row of the region; negative for none.
   int half_width(std::uint32_t distance, int dy, int dz) const {
     const std::int64_t most = std::int64_t{distance} - 1, y = std::abs(dy), z = std::abs(dz);
-    if (metric_ == CellMetric::city_block) return static_cast<int>(most - y - z);
-    if (metric_ != CellMetric::euclid) return static_cast<int>(most);
+    if (space_.metric == CellMetric::city_block) return static_cast<int>(most - y - z);
+    if (space_.metric != CellMetric::euclid) return static_cast<int>(most);
     const std::int64_t left = most - y * y - z * z;
     // Exact: whole numbers below 2^31 have exact squares, and their roots are correctly rounded.
     return left < 0 ? -1 : static_cast<int>(std::sqrt(static_cast<double>(left)));
@@ -86,7 +88,7 @@ class DistanceChecker {
 
   const UniformCells& cells_;
   const std::vector<std::uint32_t>& words_;
-  CellMetric metric_;
+  CellSpace space_;
   std::vector<std::uint64_t> lists_before_;
 };
 
@@ -109,7 +111,7 @@ void ProximityCloud::validate(const PrimitiveSource& source) const {
   demand(next == lists_.size(), "lists do not tile");
   grid.lists.first.push_back(static_cast<std::uint32_t>(references.size()));
   check_cell_grid(grid, report_, is_exact_, source, kName);
-  DistanceChecker(cells_, words_, metric_).run();
+  DistanceChecker(cells_, words_, space_).run();
 }
 
 }  // namespace strahl
