@@ -18,14 +18,15 @@
 //   whole grid; nothing else changes. Comparisons are written so that NaN means "may".
 // Jumps: an action that knows the cells around one to be empty returns how far (CellJump). A jump
 //   changes what the sweep's state says - which slabs are open and when the next one is entered -
-//   to what it would be at a later t had the loop been stepped there: the slabs are found anew by
-//   the same comparisons of the same parameters, so ties, NaN, margins and the end of the traversal
-//   are those of steps. What must be shown is only that every cell in between is a known one.
-//   Numbers of slabs passed since the known cell bound the positions of these cells, and each known
-//   region holds, with a position, all positions nearer on every axis, so the last position
-//   decides. A guess of where the region ends is checked against it; a wrong one costs a step,
-//   nothing else. Regions that reach forward only, or that are rounded at their corners, are used
-//   where no slab that lies behind stays open until the next one is entered.
+//   to what steps would have made of it just before a later t: the slabs are found anew by the same
+//   comparisons of the same parameters, and what is entered at t itself is still to come, so ties,
+//   NaN, margins and the end of the traversal are those of steps. What must be shown is only that
+//   every cell in between is a known one. Numbers of slabs passed since the known cell bound the
+//   positions of these cells, and each known region holds, with a position, all positions nearer on
+//   every axis, so the last position decides. A guess of where the region ends is checked against
+//   it; a wrong one costs a step, nothing else. Regions that reach forward only, or that are
+//   rounded at their corners, are used where no slab that lies behind stays open until the next one
+//   is entered.
 // Invariants: enter and leave grow with the slab (planes are monotone and so is rounding), and
 //   leave of a slab is not before enter of the next, so oldest..newest is never empty.
 // Thread safety: pure; needs round-to-nearest.
@@ -89,7 +90,7 @@ class CellSweep {
   template <class Action>
   bool run(Action& action) {
     if (!(t_begin_ <= t_end_)) return false;
-    for (int a = 0; a < 3; ++a) place(a, t_begin_, axis(a).first, axis(a).last);
+    for (int a = 0; a < 3; ++a) open_first(a);
     auto jump = visit(kNoAxis, t_begin_, action);
     note_alone();
     while (distance_of(jump) != kStopCells) {
@@ -182,17 +183,23 @@ class CellSweep {
     else
       while (leaves(a, s.oldest) < t) s.oldest += s.step;
   }
-  /// Finds the slabs entered and not left at t; the newest is sought among from..to. The guess is
-  /// off by about as many slabs as are open at once.
-  void place(int a, double t, int from, int to) { open_slabs(a, t, newest_at(a, t, from, to)); }
-  int newest_at(int a, double t, int from, int to) const {
+  void open_first(int a) {
+    const Slabs& s = axis(a);
+    int newest = newest_before(a, t_begin_, s.first, s.last);
+    while (newest != s.last && !(enters(a, newest + s.step) > t_begin_)) newest += s.step;
+    open_slabs(a, t_begin_, newest);
+  }
+  /// The newest slab among from..to that is entered before t, or `from`. The guess is off by about
+  /// as many slabs as are open at once.
+  int newest_before(int a, double t, int from, int to) const {
     const int step = axis(a).step;
     const auto [low, high] = std::minmax(from, to);
     int cell = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
-    while (cell != from && enters(a, cell) > t) cell -= step;
-    while (cell != to && !(enters(a, cell + step) > t)) cell += step;
+    while (cell != from && enters(a, cell) >= t) cell -= step;
+    while (cell != to && !(enters(a, cell + step) >= t)) cell += step;
     return cell;
   }
+  /// Finds the slabs that are entered, up to `newest`, and not left at t.
   void open_slabs(int a, double t, int newest) {
     Slabs& s = axis(a);
     s.newest = s.oldest = newest;
@@ -263,8 +270,9 @@ class CellSweep {
     }
     if (!(t_out <= t_end_)) return false;
     for (int a = 0; a < 3; ++a) {
-      const int newest = axis(a).newest;
-      place(a, t_out, newest, newest + reach[static_cast<std::size_t>(a)] * axis(a).step);
+      const Slabs& s = axis(a);
+      const int farthest = s.newest + reach[static_cast<std::size_t>(a)] * s.step;
+      open_slabs(a, t_out, newest_before(a, t_out, s.newest, farthest));
     }
     note_alone();
     return true;
@@ -282,7 +290,7 @@ class CellSweep {
     std::int64_t distance = 0;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
-      const int cell = newest_at(a, t, s.newest, is_in_layer(jump, a) ? s.newest : s.last);
+      const int cell = newest_before(a, t, s.newest, is_in_layer(jump, a) ? s.newest : s.last);
       const std::int64_t passed = std::abs(cell - s.newest);
       distance += jump.metric == CellMetric::euclid ? passed * passed : passed;
       newest[static_cast<std::size_t>(a)] = cell;
