@@ -16,6 +16,17 @@
 //   it are visited. A ray inside a plane (direction 0, parameters NaN or infinite) has two slabs
 //   from beginning to end. Far origins and wide margins make the ranges long, in the limit the
 //   whole grid; nothing else changes. Comparisons are written so that NaN means "may".
+// Jumps: an action that knows the cells around one to be empty returns how far (CellJump). A jump
+//   changes what the sweep's state says - which slabs are open and when the next one is entered -
+//   to what steps would have made of it just before a later t: the slabs are found anew by the same
+//   comparisons of the same parameters, and what is entered at t itself is still to come, so ties,
+//   NaN, margins and the end of the traversal are those of steps. What must be shown is only that
+//   every cell in between is a known one. Numbers of slabs passed since the known cell bound the
+//   positions of these cells, and each known region holds, with a position, all positions nearer on
+//   every axis, so the last position decides. A guess of where the region ends is checked against
+//   it; a wrong one costs a step, nothing else. Regions that reach forward only, or that are
+//   rounded at their corners, are used where no slab that lies behind stays open until the next one
+//   is entered.
 // Invariants: enter and leave grow with the slab (planes are monotone and so is rounding), and
 //   leave of a slab is not before enter of the next, so oldest..newest is never empty.
 // Thread safety: pure; needs round-to-nearest.
@@ -23,8 +34,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include <strahl/math/ray.h>
 #include <strahl/math/uniform_cells.h>
@@ -40,6 +54,18 @@ struct CellVisit {
 
 /// What a cell action returns instead of a jump to end the traversal.
 inline constexpr int kStopCells = 0;
+
+/// How far two cells are from each other, d being the differences of their positions: the largest
+/// of |d|; their sum; the sum of d^2; or the largest of |d|, counting only cells that do not lie
+/// behind on any axis as the ray goes.
+enum class CellMetric { chessboard, city_block, euclid, octant };
+
+/// How far to jump: cells that are less than `distance` away need no visit.
+struct CellJump {
+  int distance;  ///< kStopCells, or 1 for the next cell
+  CellMetric metric = CellMetric::chessboard;
+  unsigned layers = 0;  ///< bit a: only of cells in the same slab of axis a so much is known
+};
 
 /// State of a sweep; use dda().
 template <class Cells>
@@ -64,11 +90,11 @@ class CellSweep {
   template <class Action>
   bool run(Action& action) {
     if (!(t_begin_ <= t_end_)) return false;
-    for (int a = 0; a < 3; ++a) place(a, t_begin_, axis(a).first, axis(a).last);
-    int jump = visit(kNoAxis, t_begin_, action);
+    for (int a = 0; a < 3; ++a) open_first(a);
+    auto jump = visit(kNoAxis, t_begin_, action);
     note_alone();
-    while (jump != kStopCells) {
-      if (jump > 1 && !leap(jump)) return false;
+    while (distance_of(jump) != kStopCells) {
+      if (distance_of(jump) > 1 && !leap(jump)) return false;
       const int a = next_axis();
       const double t = axis(a).t_next;
       if (!(t <= t_end_)) return false;
@@ -88,6 +114,14 @@ class CellSweep {
   }
 
  private:
+  /// A number is short for a jump by the chessboard metric.
+  template <class Action>
+  using JumpOf =
+      std::conditional_t<std::is_same_v<std::invoke_result_t<Action&, const CellVisit&>, CellJump>,
+                         CellJump, int>;
+  static int distance_of(int jump) { return jump; }
+  static int distance_of(const CellJump& jump) { return jump.distance; }
+
   static constexpr int kNoAxis = 3;
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -149,15 +183,26 @@ class CellSweep {
     else
       while (leaves(a, s.oldest) < t) s.oldest += s.step;
   }
-  /// Finds the slabs entered and not left at t; the newest is sought among from..to. The guess is
-  /// off by about as many slabs as are open at once.
-  void place(int a, double t, int from, int to) {
-    Slabs& s = axis(a);
+  void open_first(int a) {
+    const Slabs& s = axis(a);
+    int newest = newest_before(a, t_begin_, s.first, s.last);
+    while (newest != s.last && !(enters(a, newest + s.step) > t_begin_)) newest += s.step;
+    open_slabs(a, t_begin_, newest);
+  }
+  /// The newest slab among from..to that is entered before t, or `from`. The guess is off by about
+  /// as many slabs as are open at once.
+  int newest_before(int a, double t, int from, int to) const {
+    const int step = axis(a).step;
     const auto [low, high] = std::minmax(from, to);
-    s.newest = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
-    while (s.newest != from && enters(a, s.newest) > t) s.newest -= s.step;
-    while (s.newest != to && !(enters(a, s.newest + s.step) > t)) s.newest += s.step;
-    s.oldest = s.newest;
+    int cell = std::clamp(cells_.guess(a, ray_.org[a] + t * ray_.dir[a]), low, high);
+    while (cell != from && enters(a, cell) >= t) cell -= step;
+    while (cell != to && !(enters(a, cell + step) >= t)) cell += step;
+    return cell;
+  }
+  /// Finds the slabs that are entered, up to `newest`, and not left at t.
+  void open_slabs(int a, double t, int newest) {
+    Slabs& s = axis(a);
+    s.newest = s.oldest = newest;
     while (s.oldest != s.first && !(leaves(a, s.oldest - s.step) < t)) s.oldest -= s.step;
     note_planes(a);
   }
@@ -165,15 +210,15 @@ class CellSweep {
   /// Visits the open cells that lie in the newest slab of axis `fresh`, all if kNoAxis.
   /// Returns the jump allowed from here, 1 where several cells are open, or kStopCells.
   template <class Action>
-  int visit(int fresh, double t, Action& action) {
+  JumpOf<Action> visit(int fresh, double t, Action& action) {
     const bool is_one = (fresh == 0 || axis_[0].is_single()) &&
                         (fresh == 1 || axis_[1].is_single()) &&
                         (fresh == 2 || axis_[2].is_single());
     if (is_one) return visit_newest(t, action);
-    return visit_block(fresh, t, action) ? kStopCells : 1;
+    return {visit_block(fresh, t, action) ? kStopCells : 1};
   }
   template <class Action>
-  int visit_newest(double t, Action& action) const {
+  JumpOf<Action> visit_newest(double t, Action& action) const {
     const CellPosition at{axis_[0].newest, axis_[1].newest, axis_[2].newest};
     return action(CellVisit{at, cells_.index(at), t});
   }
@@ -186,7 +231,8 @@ class CellSweep {
       for (int y = from[1];; y += axis_[1].step) {
         for (int x = from[0];; x += axis_[0].step) {
           const CellPosition at{x, y, z};
-          if (action(CellVisit{at, cells_.index(at), t}) == kStopCells) return true;
+          const JumpOf<Action> jump = action(CellVisit{at, cells_.index(at), t});
+          if (distance_of(jump) == kStopCells) return true;
           if (x == axis_[0].newest) break;
         }
         if (y == axis_[1].newest) break;
@@ -196,24 +242,78 @@ class CellSweep {
     return false;
   }
 
-  /// Moves on to where the ray first leaves the cells nearer than `jump` to the newest one. Open
-  /// slabs behind must be among them. False when the rest of the grid holds nothing else.
-  bool leap(int jump) {
+  /// Moves on to where the ray leaves the region of the jump, or about there. False when the rest
+  /// of the grid holds nothing else.
+  bool leap(const CellJump& jump) {
+    if (jump.metric == CellMetric::chessboard) return leave_box(jump);
+    const double t_step = axis(next_axis()).t_next;
+    if (!(t_alone_ < t_step)) return true;
+    if (jump.metric == CellMetric::octant) return leave_box(jump);
+    glide(jump, t_step);
+    return true;
+  }
+  bool leap(int jump) { return leave_box({jump}); }
+
+  static bool is_in_layer(const CellJump& jump, int a) { return (jump.layers >> a & 1) != 0; }
+
+  /// Exactly to where the ray leaves a box of cells. Open slabs behind must be in it.
+  bool leave_box(const CellJump& jump) {
+    std::array<int, 3> reach;
     double t_out = kInfinity;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
-      if ((s.newest - s.oldest) * s.step >= jump) return true;
-      if ((s.last - s.newest) * s.step < jump) continue;
-      t_out = std::min(t_out, enters(a, s.newest + jump * s.step));
+      const int known = is_in_layer(jump, a) ? 1 : jump.distance,
+                left = (s.last - s.newest) * s.step;
+      if ((s.newest - s.oldest) * s.step >= known) return true;
+      reach[static_cast<std::size_t>(a)] = std::min(known - 1, left);
+      if (left >= known) t_out = std::min(t_out, enters(a, s.newest + known * s.step));
     }
     if (!(t_out <= t_end_)) return false;
     for (int a = 0; a < 3; ++a) {
       const Slabs& s = axis(a);
-      const int reach = std::min(jump - 1, (s.last - s.newest) * s.step);
-      place(a, t_out, s.newest, s.newest + reach * s.step);
+      const int farthest = s.newest + reach[static_cast<std::size_t>(a)] * s.step;
+      open_slabs(a, t_out, newest_before(a, t_out, s.newest, farthest));
     }
     note_alone();
     return true;
+  }
+
+  /// About to where the ray leaves a region that is no box. All cells until then are in it if the
+  /// last one is.
+  void glide(const CellJump& jump, double t_step) {
+    // In this order NaN stays NaN.
+    double t = std::min(t_step + guess_way(jump, t_step), t_end_);
+    for (int a = 0; a < 3; ++a)
+      if (is_in_layer(jump, a)) t = std::min(t, axis(a).t_next);
+    if (!(t > t_step)) return;
+    CellPosition newest;
+    std::int64_t distance = 0;
+    for (int a = 0; a < 3; ++a) {
+      const Slabs& s = axis(a);
+      const int cell = newest_before(a, t, s.newest, is_in_layer(jump, a) ? s.newest : s.last);
+      const std::int64_t passed = std::abs(cell - s.newest);
+      distance += jump.metric == CellMetric::euclid ? passed * passed : passed;
+      newest[static_cast<std::size_t>(a)] = cell;
+    }
+    if (distance >= jump.distance) return;
+    for (int a = 0; a < 3; ++a) open_slabs(a, t, newest[static_cast<std::size_t>(a)]);
+    note_alone();
+  }
+
+  /// How far beyond t_step the region reaches: after x more, at most rate * x + begun slabs of an
+  /// axis are passed; their sum, or that of their squares, shall be below jump.distance.
+  double guess_way(const CellJump& jump, double t_step) const {
+    Vec3d rate, begun;
+    for (int a = 0; a < 3; ++a) {
+      if (is_in_layer(jump, a) || !(axis(a).t_next < kInfinity)) continue;
+      rate[a] = std::abs(ray_.dir[a]) / (cells_.plane(a, 1) - cells_.plane(a, 0));
+      begun[a] = 1.0 - (axis(a).t_next - t_step) * rate[a];
+    }
+    const double most = jump.distance - 1.0;
+    if (jump.metric == CellMetric::city_block)
+      return (most - (begun.x + begun.y + begun.z)) / (rate.x + rate.y + rate.z);
+    const double rr = dot(rate, rate), rb = dot(rate, begun);
+    return (std::sqrt(rb * rb + rr * (most - dot(begun, begun))) - rb) / rr;
   }
 
   const Cells& cells_;
@@ -223,10 +323,10 @@ class CellSweep {
   std::array<Slabs, 3> axis_;
 };
 
-/// Calls action(const CellVisit&) -> int for every cell that a point of the ray may lie in, each
-/// once, by ascending t_enter. The action returns kStopCells to end the traversal, else a jump:
-/// 1 for the next cell; d > 1 if all cells whose position differs by less than d on every axis need
-/// no visit (it is followed where just one cell is open, else taken for 1).
+/// Calls action(const CellVisit&) for every cell that a point of the ray may lie in, each
+/// once, by ascending t_enter. The action returns kStopCells to end the traversal, else a jump, as
+/// a CellJump or as its distance by the chessboard metric: 1 for the next cell; d > 1 if all cells
+/// less than d away need no visit (it is followed where just one cell is open, else taken for 1).
 /// @param cells has n(axis), plane(axis, i) monotone in i, guess(axis, x), index(position)
 /// @return whether the action stopped it. O(cells visited).
 template <class Cells, class Action>

@@ -6,6 +6,7 @@
 
 #include <strahl/base/rng.h>
 #include <strahl/traverse/dda.h>
+#include <strahl/traverse/nasty_rays_test.h>
 
 namespace strahl {
 namespace {
@@ -46,61 +47,6 @@ bool meets(const UniformCells& cells, const PreparedRay& ray, const CellPosition
     if (raised(last, margin) < leave) leave = raised(last, margin);
   }
   return enter <= leave;
-}
-
-/// Rays that make trouble in a grid of cells.
-class NastyRays {
- public:
-  NastyRays(const UniformCells& cells, std::uint64_t seed) : cells_(cells), rng_(seed) {}
-
-  PreparedRay next() {
-    Ray ray{point(), {}};
-    const Vec3d target = point();
-    ray.dir = rng_.below(3) == 0 ? small_direction() : target - ray.org;
-    for (int a = 0; a < 3; ++a)
-      if (rng_.below(6) == 0) ray.dir[a] = 0.0;
-    if (norm_max(ray.dir) == 0.0) ray.dir.y = -1.0;
-    if (rng_.below(3) == 0) {
-      const double distances[] = {1.0, 30.0, 1e6, 1e12, 1e15, 1e18, 1e30};
-      ray.org = target - distances[rng_.below(7)] / norm_max(ray.dir) * ray.dir;
-    }
-    if (rng_.below(4) == 0) ray.t_min = rng_.uniform(), ray.t_max = ray.t_min + rng_.uniform();
-    RayFrame frame;
-    frame.bounds = {{}, {}};
-    if (rng_.below(3) == 0) frame.widen_absolute = std::pow(10.0, rng_.uniform(-16, 0));
-    if (rng_.below(3) == 0) frame.widen_per_org = 1e-15;
-    return PreparedRay(ray, frame);
-  }
-
- private:
-  Vec3d small_direction() {
-    const auto whole = [&] { return static_cast<double>(rng_.below(5)) - 2; };
-    const double x = whole(), y = whole();
-    return {x, y, whole()};
-  }
-  /// A corner of a cell, a point in a plane between cells, or any point in or near the grid.
-  Vec3d point() {
-    Vec3d p;
-    const bool is_corner = rng_.below(2) == 0;
-    for (int a = 0; a < 3; ++a) {
-      const double lo = cells_.plane(a, 0), hi = cells_.plane(a, cells_.n(a));
-      const auto plane = static_cast<int>(rng_.below(static_cast<std::uint32_t>(cells_.n(a)) + 1));
-      p[a] = is_corner || rng_.below(3) == 0 ? cells_.plane(a, plane)
-                                             : lo + rng_.uniform(-0.3, 1.3) * (hi - lo);
-    }
-    return p;
-  }
-
-  const UniformCells& cells_;
-  Rng rng_;
-};
-
-std::vector<UniformCells> grids() {
-  return {UniformCells({{0, 0, 0}, {8, 8, 8}}, {8, 8, 8}),
-          UniformCells({{-1, 2, 1000.1}, {1, 2.1, 1000.7}}, {7, 13, 3}),
-          UniformCells({{0, 0, 5}, {1, 3, 5}}, {6, 11, 1}),
-          UniformCells({{1e5, 1e5, 1e5}, {1e5 + 1, 1e5 + 0.7, 1e5 + 0.3}}, {9, 5, 4}),
-          UniformCells({{-3, -3, -3}, {3, 3, 3}}, {1, 1, 1})};
 }
 
 TEST(Dda, VisitsEveryCellThatTheRayMayTouchOnceAndInOrder) {
@@ -194,57 +140,87 @@ TEST(Dda, EndsWhenTheActionSaysSo) {
   EXPECT_FALSE(dda(cells, along, [](const CellVisit&) { return 1; }));
 }
 
-/// A grid of which some cells matter, and how far the nearest of those is, at least 1.
+/// How far cell b is from a as a jump counts it; nothing where it does not count at all.
+std::int64_t distance_between(const CellPosition& a, const CellPosition& b, const CellJump& kind,
+                              const PreparedRay& ray) {
+  constexpr std::int64_t kInfinite = 1000000;
+  std::int64_t sum = 0, largest = 0, squares = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::int64_t d = b[i] - a[i];
+    if (d != 0 && (kind.layers >> i & 1) != 0) return kInfinite;
+    if (kind.metric == CellMetric::octant && (ray.negative[i] ? d > 0 : d < 0)) return kInfinite;
+    sum += std::abs(d), squares += d * d, largest = std::max(largest, std::abs(d));
+  }
+  return kind.metric == CellMetric::city_block ? sum
+         : kind.metric == CellMetric::euclid   ? squares
+                                               : largest;
+}
+
+/// A grid of which some cells matter.
 struct Sparse {
   UniformCells cells;
   std::vector<bool> matters;
-  std::vector<int> distance;
+  std::vector<CellPosition> full;
 
   Sparse(const UniformCells& grid, std::uint32_t one_in, std::uint64_t seed) : cells(grid) {
     Rng rng(seed);
-    std::vector<CellPosition> full;
     for_cells(cells, [&](const CellPosition& at) {
       matters.push_back(rng.below(one_in) == 0);
       if (matters.back()) full.push_back(at);
     });
-    for_cells(cells, [&](const CellPosition& at) {
-      int nearest = 1000;
-      for (const CellPosition& f : full) {
-        int far = 0;
-        for (std::size_t a = 0; a < 3; ++a) far = std::max(far, std::abs(at[a] - f[a]));
-        nearest = std::min(nearest, far);
-      }
-      distance.push_back(std::max(1, nearest));
-    });
+  }
+  /// As far as possible from a cell without passing one that matters.
+  CellJump jump(const CellPosition& at, const CellJump& kind, const PreparedRay& ray) const {
+    std::int64_t nearest = 1000000;
+    for (const CellPosition& f : full)
+      nearest = std::min(nearest, distance_between(at, f, kind, ray));
+    CellJump jump = kind;
+    jump.distance = static_cast<int>(std::max<std::int64_t>(1, nearest));
+    return jump;
   }
 };
 
-TEST(Dda, JumpsOverCellsWithoutMissingOneThatMatters) {
+using Visits = std::vector<std::pair<std::size_t, double>>;
+
+/// Cells that matter, in order, with t_enter. `kind` without distance: by steps.
+Visits visits_that_matter(const Sparse& sparse, const PreparedRay& ray, const CellJump& kind) {
+  Visits visits;
+  dda(sparse.cells, ray, [&](const CellVisit& cell) {
+    if (sparse.matters[cell.index]) visits.emplace_back(cell.index, cell.t_enter);
+    return kind.distance == 0 ? CellJump{1} : sparse.jump(cell.at, kind, ray);
+  });
+  return visits;
+}
+
+const std::vector<CellJump>& kinds_of_jumps() {
+  static const std::vector<CellJump> kinds = [] {
+    std::vector<CellJump> all;
+    for (const CellMetric metric :
+         {CellMetric::chessboard, CellMetric::city_block, CellMetric::euclid, CellMetric::octant})
+      for (const unsigned layers : {0u, 4u, 2u, 3u}) all.push_back({1, metric, layers});
+    return all;
+  }();
+  return kinds;
+}
+
+TEST(Dda, JumpsMeetTheCellsThatMatterInTheOrderOfSteps) {
   std::uint64_t seed = 5;
   for (const UniformCells& grid : grids())
-    for (const std::uint32_t one_in : {20u, 200u, 100000u}) {
+    for (const std::uint32_t one_in : {8u, 40u, 200u, 100000u}) {
       const Sparse sparse(grid, one_in, ++seed);
       NastyRays rays(grid, seed);
-      for (int i = 0; i < 3000; ++i) {
+      for (int i = 0; i < 1500; ++i) {
         const PreparedRay ray = rays.next();
-        const std::vector<std::size_t> all = visited(grid, ray);
-        std::vector<std::size_t> expected, met;
-        for (const std::size_t c : all)
-          if (sparse.matters[c]) expected.push_back(c);
-        double t = 0.0;
-        dda(grid, ray, [&](const CellVisit& cell) {
-          EXPECT_LE(t, cell.t_enter);
-          t = cell.t_enter;
-          if (sparse.matters[cell.index]) met.push_back(cell.index);
-          return sparse.distance[cell.index];
-        });
-        std::sort(met.begin(), met.end()), std::sort(expected.begin(), expected.end());
-        ASSERT_EQ(met, expected) << "ray " << i;
+        const Visits expected = visits_that_matter(sparse, ray, {0});
+        for (const CellJump& kind : kinds_of_jumps())
+          ASSERT_EQ(visits_that_matter(sparse, ray, kind), expected)
+              << "ray " << i << " metric " << static_cast<int>(kind.metric) << " layers "
+              << kind.layers << " one in " << one_in;
       }
     }
 }
 
-TEST(Dda, JumpsSaveMostStepsInEmptySpace) {
+TEST(Dda, JumpsOfEveryMetricSaveMostStepsInEmptySpace) {
   const UniformCells cells({{0, 0, 0}, {1, 1, 1}}, {32, 32, 32});
   const Sparse sparse(cells, 10000, 9);
   Rng rng(10);
@@ -252,17 +228,22 @@ TEST(Dda, JumpsSaveMostStepsInEmptySpace) {
     const double x = rng.uniform(), y = rng.uniform();
     return Vec3d{x, y, rng.uniform()};
   };
-  std::size_t steps = 0, jumped_steps = 0;
+  std::size_t steps = 0;
+  std::map<CellMetric, std::size_t> jumped_steps;
   for (int i = 0; i < 500; ++i) {
     const Vec3d org = anywhere();
     const PreparedRay ray({org, anywhere() - org}, {});
     steps += visited(cells, ray).size();
-    dda(cells, ray, [&](const CellVisit& cell) {
-      ++jumped_steps;
-      return sparse.distance[cell.index];
-    });
+    for (const CellJump& kind : kinds_of_jumps())
+      if (kind.layers == 0)
+        dda(cells, ray, [&](const CellVisit& cell) {
+          ++jumped_steps[kind.metric];
+          return sparse.jump(cell.at, kind, ray);
+        });
   }
-  EXPECT_LT(jumped_steps, steps / 3);
+  for (const auto& [metric, count] : jumped_steps)
+    EXPECT_LT(count, steps / 3) << "metric " << static_cast<int>(metric);
+  EXPECT_LT(jumped_steps[CellMetric::octant], jumped_steps[CellMetric::chessboard]);
 }
 
 TEST(Dda, AJumpBeyondTheGridEndsIt) {

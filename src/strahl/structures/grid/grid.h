@@ -2,7 +2,7 @@
 //
 // Source: [Fujimoto1986], [AmanatidesWoo1987]; resolution rules [Woo1992], [Klimaszewski1994];
 //   lists as one array [LagaeDutre2008].
-// Layout: cells x fastest; lists in build/cell_lists.h.
+// Layout: cells x fastest; built by build/cell_grid.h, lists in build/cell_lists.h.
 // Invariants: cells are closed: what lies in the plane between two cells is listed in both.
 // Why no hit is lost: the point of a hit lies in a closed cell that lists the primitive, and dda()
 //   visits every closed cell that a point of the ray lies in. A hit is kept whichever cell it was
@@ -12,26 +12,16 @@
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
 
-#include <strahl/base/hash.h>
-#include <strahl/base/options.h>
-#include <strahl/build/build_report.h>
-#include <strahl/build/cell_lists.h>
+#include <strahl/build/cell_grid.h>
 #include <strahl/traverse/dda.h>
 #include <strahl/traverse/leaf.h>
 #include <strahl/traverse/mailbox.h>
 
 namespace strahl {
 
-enum class GridResolution { woo, cubic, fixed };
-
 /// README.md says how the defaults were measured.
-struct GridOptions {
-  GridResolution resolution = GridResolution::cubic;
-  double density = 4.0;
-  int nx = 16, ny = 16, nz = 16;
-  bool exact = true;
+struct GridOptions : CellGridOptions {
   bool mailbox = true;
-  int max_cells = 1 << 26;
 };
 
 OptionTable<GridOptions> option_fields(const GridOptions*);
@@ -49,7 +39,7 @@ class Grid {
 
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (lists_.references.empty()) return;
+    if (grid_.lists.references.empty()) return;
     if (has_mailbox_) {
       MailedPrims<Prims> mailed(prims);
       visit_cells(mailed, ray, query, counters);
@@ -64,22 +54,17 @@ class Grid {
   void hash_into(Hash64& hash) const;
 
  private:
-  friend class GridChecker;
-
   template <class Prims, class Q, class C>
   void visit_cells(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
     // Named captures: with [&] their order would depend on whether counters are called.
-    dda(cells_, ray, [this, &prims, &ray, &query, &counters](const CellVisit& cell) {
+    dda(grid_.cells, ray, [this, &prims, &ray, &query, &counters](const CellVisit& cell) {
       if (!may_hit_before(cell.t_enter, query.t_max())) return kStopCells;
       counters.traversal_step();
-      return test_leaf(lists_[cell.index], prims, ray, query, counters) ? kStopCells : 1;
+      return test_leaf(grid_.lists[cell.index], prims, ray, query, counters) ? kStopCells : 1;
     });
   }
-  void fill(const CellListInput& input, const Options& options, const BuildContext& context);
-  void survey();
 
-  UniformCells cells_;
-  CellLists lists_;
+  CellGrid grid_;
   bool is_exact_, has_mailbox_;
   BuildReport report_;
 };

@@ -1,25 +1,19 @@
-// structures/grid/grid_validate.cpp - the invariants of a grid, executable.
+// build/cell_grid_check.cpp - the invariants of a grid of cells, executable.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include <strahl/structures/grid/grid.h>
+#include <strahl/build/cell_grid.h>
 
 namespace strahl {
 namespace {
 
-void demand(bool holds, const char* broken) {
-  if (!holds) throw std::logic_error(std::string("grid: ") + broken);
-}
-
-}  // namespace
-
 /// Looks every cell that a primitive's box touches up by comparing planes, without guesses.
-class GridChecker {
+class CellGridChecker {
  public:
-  GridChecker(const Grid& grid, const PrimitiveSource& source)
-      : cells_(grid.cells_), lists_(grid.lists_), is_exact_(grid.is_exact_), source_(source) {}
+  CellGridChecker(const CellGrid& grid, bool exact, const PrimitiveSource& source, const char* what)
+      : cells_(grid.cells), lists_(grid.lists), is_exact_(exact), source_(source), what_(what) {}
 
   void run(const BuildReport& report) {
     check_lists();
@@ -36,6 +30,10 @@ class GridChecker {
   }
 
  private:
+  void demand(bool holds, const char* broken) const {
+    if (!holds) throw std::logic_error(std::string(what_) + ": " + broken);
+  }
+
   void check_lists() {
     const std::vector<std::uint32_t>& first = lists_.first;
     demand(first.size() == cells_.count() + 1, "not one list per cell");
@@ -106,11 +104,15 @@ class GridChecker {
   const CellLists& lists_;
   bool is_exact_;
   const PrimitiveSource& source_;
+  const char* what_;
   std::uint64_t empty_ = 0;
 };
 
-void Grid::validate(const PrimitiveSource& source) const {
-  GridChecker(*this, source).run(report_);
+}  // namespace
+
+void check_cell_grid(const CellGrid& grid, const BuildReport& report, bool exact,
+                     const PrimitiveSource& source, const char* what) {
+  CellGridChecker(grid, exact, source, what).run(report);
 }
 
 }  // namespace strahl
