@@ -179,6 +179,7 @@ TEST(Octree, AnswersLikeBruteForceWhereRaysTouchPlanes) {
   for (const std::string kind : kKinds)
     for (const char* more : {"max_depth=5", "padding=0,max_depth=4", "traversal=neighbour"}) {
       const auto tree = build(scene, kind + (kind == "octree" ? ":" : ",") + more);
+      EXPECT_NO_THROW(tree->validate()) << kind << " " << more;
       tree->closest_hit(batch, got);
       tree->count_hits(batch, counts);
       std::size_t wrong = 0;
