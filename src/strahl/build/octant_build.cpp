@@ -42,7 +42,6 @@ class OctantPolicy {
         options_(options),
         axes_(axes),
         context_(context),
-        what_(what),
         meter_(context, what),
         total_(primitives),
         is_inner_(options.place == OctantPlace::inner),
@@ -224,7 +223,6 @@ class OctantPolicy {
   const OctantOptions& options_;
   const OctantAxes& axes_;
   const BuildContext& context_;
-  const char* what_;
   MemoryMeter meter_;
   std::size_t total_;
   bool is_inner_;

@@ -1,7 +1,6 @@
 // build/octants.h - cells divided on several axes at once: the tree behind octree and quadtree.
 //
-// Source: [Glassner1984]; planes by cost [Whang1995]; primitives at inner nodes [SametWebber1988],
-//   in enlarged cells [Ulrich2000].
+// Source: [Glassner1984]; planes by cost [Whang1995]; enlarged cells [Ulrich2000].
 // Layout: the children of a node are consecutive, so a node names their block only. A child's place
 //   in its block has a bit per divided axis, the first axis highest: 0 for the half below the
 //   plane, 1 for the half above. Blocks are numbered depth first; block 0 belongs to the root, node

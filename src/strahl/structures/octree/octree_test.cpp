@@ -152,6 +152,43 @@ TEST(Octree, BothTraversalsVisitTheSameLeaves) {
   }
 }
 
+/// Tiles in planes of cells that are exact powers of two, and rays through their corners, along
+/// their edges and within their planes.
+TEST(Octree, AnswersLikeBruteForceWhereRaysTouchPlanes) {
+  std::vector<Triangle> all;
+  for (int i = 0; i < 300; ++i) {
+    Vec3d at{i % 7 * 1.0, i / 7 % 7 * 1.0, i / 49 * 1.0}, u, v;
+    u[i % 3] = 1, v[(i + 1) % 3] = 1;
+    all.push_back({at, at + u, at + v});
+  }
+  all.push_back({Vec3d{0, 0, 0}, Vec3d{8, 0, 0}, Vec3d{0, 8, 8}});
+  std::vector<Ray> rays = rays_through(*triangles(all), 100);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    const Vec3d a = all[i][0], b = all[i][1], c = all[(7 * i + 5) % 300][2];
+    rays.push_back({a - 4.0 * (b - a), b - a});
+    if (!(a == c)) rays.push_back({a - 2.0 * (c - a), c - a});
+    rays.push_back({{a.x, a.y, -1}, {0, 0, 1}});
+    rays.push_back({{9, a.y, a.z}, {-1, 0, 0}});
+  }
+  const ScenePtr scene = triangles(all);
+  const RayBatch batch = make_batch(rays);
+  std::vector<Hit> expected(rays.size()), got(rays.size());
+  std::vector<std::uint32_t> expected_counts(rays.size()), counts(rays.size());
+  build(scene, "brute_force")->closest_hit(batch, expected);
+  build(scene, "brute_force")->count_hits(batch, expected_counts);
+  for (const std::string kind : kKinds)
+    for (const char* more : {"max_depth=5", "padding=0,max_depth=4", "traversal=neighbour"}) {
+      const auto tree = build(scene, kind + (kind == "octree" ? ":" : ",") + more);
+      EXPECT_NO_THROW(tree->validate()) << kind << " " << more;
+      tree->closest_hit(batch, got);
+      tree->count_hits(batch, counts);
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) wrong += !is_same_hit(got[i], expected[i]);
+      EXPECT_EQ(wrong, 0u) << kind << " " << more;
+      EXPECT_EQ(counts, expected_counts) << kind << " " << more;
+    }
+}
+
 TEST(Octree, StopsOnTenThousandEqualTriangles) {
   const Triangle one{Vec3d{0, 0, 0}, Vec3d{1, 0.25, 0}, Vec3d{0, 1, 0.5}};
   const ScenePtr scene = triangles(std::vector<Triangle>(10000, one));
