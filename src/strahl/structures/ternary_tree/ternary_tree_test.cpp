@@ -151,9 +151,9 @@ TEST(TernaryTree, DecidesByExpectedCost) {
 
 TEST(TernaryTree, FiltersNothingWithinAnOversizedTree) {
   TernaryTreeOptions options;
-  options.threshold = 0.3, options.intersect_cost = 20;  // every sheet; divided among themselves
+  options.rule = OversizeRule::median, options.median_factor = 1;  // half of any set
   options.keep = OversizeKeep::tree, options.decide = OversizeDecision::always;
-  const KdArrays tree = nodes_of(dust_under_sheets(1000, 12), options);
+  const KdArrays tree = nodes_of(dust_under_sheets(1000, 3), options);
   ASSERT_TRUE(tree.nodes[0].is_filter());
   ASSERT_FALSE(tree.nodes[1].is_leaf());
   for (std::size_t i = 1; i < tree.nodes[0].right(); ++i) EXPECT_FALSE(tree.nodes[i].is_filter());
