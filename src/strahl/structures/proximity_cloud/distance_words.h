@@ -15,7 +15,7 @@
 
 #include <strahl/base/build_context.h>
 #include <strahl/math/uniform_cells.h>
-#include <strahl/traverse/dda.h>
+#include <strahl/traverse/cell_jump.h>
 
 namespace strahl {
 

@@ -71,7 +71,7 @@ class ProximityCloud {
   template <class Prims, class Q, class C>
   void visit_cells(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
     const unsigned octant =
-        static_cast<unsigned>(ray.negative[0]) | ray.negative[1] << 1 | ray.negative[2] << 2;
+        (ray.negative[0] ? 1u : 0u) | (ray.negative[1] ? 2u : 0u) | (ray.negative[2] ? 4u : 0u);
     // Named captures: with [&] their order would depend on whether counters are called.
     dda(cells_, ray, [this, octant, &prims, &ray, &query, &counters](const CellVisit& cell) {
       if (!may_hit_before(cell.t_enter, query.t_max())) return CellJump{kStopCells};
