@@ -10,8 +10,7 @@
 //   the same t_enter, and nothing else about a hit depends on cells. A traversal ends where the
 //   grid's would: beyond the last plane, or when the next visit begins behind the best hit.
 // Differs from the paper: a jump by city blocks ends at the last crossing that is certain, where
-// the
-//   paper goes on along a discrete line; other metrics; one word serves all eight octants.
+//   the paper goes on along a discrete line; other metrics; one word serves all eight octants.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
 
@@ -26,7 +25,7 @@
 
 namespace strahl {
 
-/// README.md says how the defaults were measured.
+/// README.md shows the steps per ray that the default metric takes.
 struct ProximityCloudOptions : CellGridOptions {
   bool mailbox = true;
   CellMetric metric = CellMetric::octant;
