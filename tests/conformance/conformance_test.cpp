@@ -15,8 +15,8 @@
 namespace strahl::test {
 namespace {
 
-constexpr std::size_t kRays = 1600;
-constexpr std::size_t kFewRays = 200;
+const std::size_t kRays = is_full_matrix() ? 1600 : 1000;
+const std::size_t kFewRays = is_full_matrix() ? 1600 : 150;
 constexpr std::size_t kWalkedRays = 200;
 constexpr std::uint64_t kSeed = 2026;
 
@@ -32,7 +32,7 @@ const Expected& expected_of(const NamedScene& named, std::size_t rays = kRays) {
 void expect_conforms(const NamedScene& named, const std::string& spec) {
   SCOPED_TRACE(spec + " on " + named.name + ", seed " + std::to_string(kSeed));
   const bool has_options = spec.find(':') != std::string::npos;
-  const Expected& e = expected_of(named, has_options && !is_full_matrix() ? kFewRays : kRays);
+  const Expected& e = expected_of(named, has_options ? kFewRays : kRays);
   ASSERT_EQ(first_difference(scene_of(named), spec, e), "");
 }
 
