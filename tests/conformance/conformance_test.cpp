@@ -15,9 +15,9 @@
 namespace strahl::test {
 namespace {
 
-const std::size_t kRays = is_full_matrix() ? 1600 : 1000;
-const std::size_t kFewRays = is_full_matrix() ? 1600 : 150;
-constexpr std::size_t kWalkedRays = 200;
+const std::size_t kRays = is_full_run() ? 1600 : 700;
+const std::size_t kFewRays = is_full_run() ? 1600 : 120;
+const std::size_t kWalkedRays = is_full_run() ? 200 : 60;
 constexpr std::uint64_t kSeed = 2026;
 
 /// Rays of a scene and what brute force says; made once per process.
@@ -43,7 +43,7 @@ struct Param {
   /// Whether SPEC number i of the structure is tried on this scene.
   bool takes(std::size_t i) const {
     const auto number = static_cast<std::size_t>(scene - adversarial_scenes().data());
-    return is_full_matrix() || scene->is_tiny || (i + number) % 3 == 0;
+    return is_full_run() || scene->is_tiny || (i + number) % 3 == 0;
   }
 };
 
@@ -70,14 +70,14 @@ TEST_P(Conformance, DefaultsAndSingleOptionsAnswerLikeBruteForce) {
   const StructureEntry& entry = *GetParam().entry;
   if (entry.name == std::string("brute_force")) return;  // it is the oracle
   for (const std::string& spec :
-       is_full_matrix() ? one_at_a_time(entry) : std::vector{std::string(entry.name)})
+       is_full_run() ? one_at_a_time(entry) : std::vector{std::string(entry.name)})
     expect_conforms(*GetParam().scene, spec);
 }
 
 /// All combinations on tiny scenes; of structures with too many, every combination of three values.
 TEST_P(Conformance, OptionsTogetherAnswerLikeBruteForce) {
   if (!GetParam().scene->is_tiny) return;
-  std::vector<std::string> specs = full_product(*GetParam().entry, is_full_matrix() ? 20000 : 400);
+  std::vector<std::string> specs = full_product(*GetParam().entry, is_full_run() ? 20000 : 400);
   if (specs.empty()) specs = covering(*GetParam().entry, 3);
   for (const std::string& spec : specs) expect_conforms(*GetParam().scene, spec);
 }

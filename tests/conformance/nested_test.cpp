@@ -106,11 +106,10 @@ const Expected& expected_of(const NamedScene& named) {
 template <class T>
 class NestedTest : public testing::Test {};
 
-using Combinations =
-    testing::Types<Nested<BruteForce, BruteForce>, Nested<BruteForce, Bvh>, Nested<Bvh, BruteForce>,
-                   Nested<Bvh, Bvh>, Nested<Bvh, KdTree>, Nested<Bvh, Grid>, Nested<KdTree, Bvh>,
-                   Nested<KdTree, KdTree>, Nested<KdTree, Grid>, Nested<Grid, Bvh>,
-                   Nested<Grid, KdTree>, Nested<Grid, Grid>>;
+using Combinations = testing::Types<Nested<BruteForce, Bvh>, Nested<Bvh, BruteForce>,
+                                    Nested<Bvh, Bvh>, Nested<Bvh, KdTree>, Nested<Bvh, Grid>,
+                                    Nested<KdTree, Bvh>, Nested<KdTree, Grid>, Nested<Grid, Bvh>,
+                                    Nested<Grid, KdTree>, Nested<Grid, Grid>>;
 TYPED_TEST_SUITE(NestedTest, Combinations);
 
 TYPED_TEST(NestedTest, AnswersLikeBruteForceOverAllPrimitives) {

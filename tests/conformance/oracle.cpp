@@ -137,9 +137,4 @@ std::string first_difference(const std::shared_ptr<const Scene>& scene, const st
   return first_difference(ask(*accelerator, expected.set, {}), expected.answers);
 }
 
-bool is_full_matrix() {
-  const char* mode = std::getenv("STRAHL_CONFORMANCE");
-  return mode != nullptr && std::string_view(mode) == "full";
-}
-
 }  // namespace strahl::test

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <tests/conformance/rays.h>
+#include <tests/support/shared.h>
 
 #include <strahl/catalog/catalog.h>
 
@@ -37,9 +38,6 @@ Expected expected_answers(const std::shared_ptr<const Scene>& scene, std::size_t
 /// Builds the structure, validates it and asks it all. Empty when it answers as expected.
 std::string first_difference(const std::shared_ptr<const Scene>& scene, const std::string& spec,
                              const Expected& expected);
-
-/// Whether the whole matrix is asked for: STRAHL_CONFORMANCE=full.
-bool is_full_matrix();
 
 /// The bits of a hit that are part of the contract.
 bool have_same_bits(const Hit& a, const Hit& b);

@@ -40,11 +40,11 @@ std::vector<std::string> scene_files(std::uintmax_t most_bytes) {
 
 std::size_t ray_count(const Scene& scene) {
   const double affordable = kTestsPerQuery / std::max(scene.size(), 1u);
-  return static_cast<std::size_t>(std::clamp(affordable, 40.0, is_full_matrix() ? 400.0 : 100.0));
+  return static_cast<std::size_t>(std::clamp(affordable, 40.0, is_full_run() ? 400.0 : 100.0));
 }
 
 std::vector<std::string> specs_for(const StructureEntry& entry, const Scene& scene) {
-  if (is_full_matrix() && scene.size() <= kHuge) return one_at_a_time(entry);
+  if (is_full_run() && scene.size() <= kHuge) return one_at_a_time(entry);
   return {entry.name};
 }
 
@@ -68,8 +68,7 @@ std::string identifier(const testing::TestParamInfo<std::string>& info) {
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealScene);
 INSTANTIATE_TEST_SUITE_P(SharedFiles, RealScene,
-                         testing::ValuesIn(scene_files(is_full_matrix() ? UINTMAX_MAX
-                                                                        : kSmallFile)),
+                         testing::ValuesIn(scene_files(is_full_run() ? UINTMAX_MAX : kSmallFile)),
                          identifier);
 
 TEST(RealScenes, AreAllThere) {

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,13 @@ namespace strahl::test {
 inline std::filesystem::path shared_dir() {
   const char* from_environment = std::getenv("STRAHL_SHARED");
   return from_environment != nullptr ? from_environment : STRAHL_SHARED_DEFAULT;
+}
+
+/// Whether the long forms of tests are asked for: STRAHL_CONFORMANCE=full, as `test.sh --full`
+/// sets.
+inline bool is_full_run() {
+  const char* mode = std::getenv("STRAHL_CONFORMANCE");
+  return mode != nullptr && std::string_view(mode) == "full";
 }
 
 }  // namespace strahl::test

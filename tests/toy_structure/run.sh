@@ -23,10 +23,18 @@ if [ "$changed" != "$expected" ]; then
   exit 1
 fi
 
-cmake -S "$work/tree" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 \
-  -DSTRAHL_BUILD_BENCH=OFF -DSTRAHL_BUILD_TOOLS=OFF > /dev/null
-cmake --build "$work/build" --target strahl_test_conformance strahl_test_structures > "$work/log" ||
-  { tail -40 "$work/log"; exit 1; }
-"$work/build/tests/strahl_test_structures" --gtest_filter='ToyList.*' --gtest_brief=1
-"$work/build/tests/strahl_test_conformance" --gtest_brief=1 \
-  --gtest_filter='*EveryOptionAlone*toy_list_cube:*EveryOptionAlone*toy_list_flat:*ThreadsAnd*toy_list_slivers'
+# The folders and flags of the release preset: with ccache only what the structure changes is compiled.
+build="$work/tree/build/release"
+cmake -S "$work/tree" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTRAHL_BUILD_BENCH=OFF \
+  -DSTRAHL_BUILD_TOOLS=OFF > /dev/null
+CCACHE_BASEDIR="$work/tree" cmake --build "$build" -j2 \
+  --target strahl_test_conformance strahl_test_structures > "$work/log" || { tail -40 "$work/log"; exit 1; }
+
+# passes <test> <filter> <least number of tests>
+passes() {
+  "$build/tests/$1" --gtest_filter="$2" --gtest_brief=1 | tee "$work/log"
+  [ "$(sed -n 's/.*PASSED *\] \([0-9]*\) test.*/\1/p' "$work/log")" -ge "$3" ]
+}
+passes strahl_test_structures 'ToyList.*' 1
+passes strahl_test_conformance \
+  '*EveryPair*toy_list_cube:*DefaultsAnd*toy_list_flat:*ThreadsAnd*toy_list_slivers' 3
