@@ -69,6 +69,17 @@ Case sliver_case(Rng& rng) {
   return c;
 }
 
+/// From the middle of an edge of a sliver, within its plane, with the smallest coordinates allowed:
+/// products of four of them underflow.
+Case tiny_in_plane_case(Rng& rng) {
+  const auto pick = [&] { return 0x1p-239 * (1 + 0x1p-30 * rng.below(1u << 30)); };
+  const Vec3d b{pick(), pick(), 0};
+  Case c{0.5 * b, {}, {{}, b, 2.0 * b + Vec3d{0, 0x1p-290, 0}}};
+  do c.dir = lattice_point(rng, 2), c.dir.z = 0;
+  while (c.dir == Vec3d{});
+  return c;
+}
+
 PreparedRay prepare(const Case& c) {
   RayFrame frame;
   frame.bounds = c.tri.bounds();
@@ -112,6 +123,9 @@ void check_many(Case (*make)(Rng&), int count, std::uint64_t seed) {
 
 TEST(TriangleExact, AgreesWithRationalArithmeticOnIntegerCoincidences) {
   check_many(lattice_case, 60000, 1);
+}
+TEST(TriangleExact, AgreesWithRationalArithmeticOnTheSmallestCoordinates) {
+  check_many(tiny_in_plane_case, 2000, 9);
 }
 TEST(TriangleExact, AgreesWithRationalArithmeticWhenAimedAtCornersAndEdges) {
   check_many(aimed_case, 20000, 2);

@@ -3,6 +3,7 @@
 #include <initializer_list>
 
 #include <strahl/geometry/triangle.h>
+#include <strahl/math/coordinate.h>
 #include <strahl/math/double_double.h>
 #include <strahl/math/expansion.h>
 
@@ -92,11 +93,20 @@ double rounded_edge(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Ve
       [&] { return exact_dot(exact_cross(difference(p, org), difference(q, p)), exact(dir)); });
 }
 
-/// Weight of the corner opposite to edge (p, q) for a ray in the plane: n . N / N . N.
+/// A power of two that brings the largest coordinate to about the largest one allowed.
+double scale_up(const Vec3d& org, const TriangleVertices& tri) {
+  const double most = std::max({norm_max(org), norm_max(tri.a), norm_max(tri.b), norm_max(tri.c)});
+  return std::ldexp(1.0, std::ilogb(kMaxCoordinate) - 1 - std::ilogb(most));
+}
+
+/// Weight of the corner opposite to edge (p, q) for a ray in the plane: n . N / N . N. Products of
+/// four coordinates would underflow where all are tiny, so they are scaled first, which is exact
+/// and changes no quotient.
 double in_plane_weight(const Vec3d& org, const TriangleVertices& tri, const Vec3d& p,
                        const Vec3d& q) {
-  const auto n = exact_cross(difference(p, org), difference(q, org));
-  const auto normal = exact_normal(tri);
+  const double s = scale_up(org, tri);
+  const auto n = exact_cross(difference(s * p, s * org), difference(s * q, s * org));
+  const auto normal = exact_normal({s * tri.a, s * tri.b, s * tri.c});
   return rounded(exact_dot(n, normal)) / rounded(exact_dot(normal, normal));
 }
 
