@@ -89,6 +89,23 @@ TEST(FloatRound, IsInfiniteOnlyOutwardBeyondTheLargestFloat) {
   expect_bracket(std::nextafter(largest, 0.0));
 }
 
+/// Two numbers that an optimiser may treat at once; not inlined, so that it sees nothing else.
+struct Pair {
+  double x, y;
+};
+[[gnu::noinline]] Pair through_floats(Pair p) {
+  const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
+  return {static_cast<double>(x), static_cast<double>(y)};
+}
+
+TEST(FloatRound, IsNotOptimisedAway) {
+  // g++ 12 does without -fno-tree-slp-vectorize (docs/adr/0007).
+  volatile double x = 0.1, y = 0.2;  // nothing is known of them
+  const Pair p = through_floats({x, y});
+  EXPECT_NE(p.x, 0.1);
+  EXPECT_NE(p.y, 0.2);
+}
+
 TEST(FloatRound, PassesNaNOn) {
   EXPECT_TRUE(std::isnan(float_below(Double::quiet_NaN())));
   EXPECT_TRUE(std::isnan(float_above(Double::quiet_NaN())));
