@@ -1,4 +1,4 @@
-# strahl::io: readers, generators, writers and images. Part of the tools, not of the installed library.
+# strahl::io: readers, generators, writers, images and measurements. Part of the tools, not of the installed library.
 find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
@@ -7,7 +7,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(openexr REQUIRED IMPORTED_TARGET OpenEXR)
 
-strahl_glob_sources(io_sources io render)
+strahl_glob_sources(io_sources io render measure)
 add_library(strahl_io STATIC ${io_sources} ${STRAHL_GENERATED_DIR}/strahl_version.h)
 add_library(strahl::io ALIAS strahl_io)
 strahl_configure_target(strahl_io)

@@ -11,6 +11,8 @@ Vec3d mix(const Vec3d& a, const Vec3d& b, double share) { return a + share * (b 
 
 Vec3d times(const Vec3d& a, const Vec3d& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
+}  // namespace
+
 const Material& material_of(const Scene& scene, const Hit& hit) {
   static constexpr Material kPlain;
   const Geometry& geometry = scene.geometries()[scene.part_of(hit.reference).geometry];
@@ -19,8 +21,6 @@ const Material& material_of(const Scene& scene, const Hit& hit) {
       hit.id.prim < geometry.materials.size() ? geometry.materials[hit.id.prim] : 0;
   return index < materials.size() ? materials[index] : kPlain;
 }
-
-}  // namespace
 
 SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit) {
   const Vec3d normal = surface_at(scene, ray, hit).normal;

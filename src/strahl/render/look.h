@@ -13,6 +13,9 @@ struct SurfacePoint {
   Vec3d color;   ///< of the primitive's material
 };
 
+/// How the primitive that was hit looks. Requires: hit.is_hit().
+const Material& material_of(const Scene& scene, const Hit& hit);
+
 /// Requires: hit.is_hit().
 SurfacePoint surface_point(const Scene& scene, const Ray& ray, const Hit& hit);
 
