@@ -56,6 +56,7 @@ TEST_F(Schemas, DescribeWhatTheCommandsPrint) {
   expect_schema("info", "empty.off --structure bvh");
   expect_schema("check", "gen:balls:1");
   expect_schema("query", "gen:balls:1 --rays rays.npy --count");
+  expect_schema("compare", "gen:balls:1 --structures bvh,grid --rays 100 --repeat 1 -o out");
   expect_schema("render", "gen:balls:1 --size 8x8 --mode depth");
 }
 

@@ -23,14 +23,14 @@ constexpr std::size_t kBrutePoints = 400;
 constexpr std::array<Vec3d, 3> kDirections{{{1, 0, 0}, {0, -1, 1}, {-0.3, 0.5, 0.1}}};
 
 /// Grid points around the box; its margin of 1/64 is not met by coordinates that people choose.
-std::vector<Ray> grid_around(const Aabb& box, const Vec3d& dir) {
+std::vector<Ray> grid_around(const Aabb& box) {
   const Vec3d margin = box.extent() / 64.0, lo = box.lo - margin;
   const Vec3d step = (box.extent() + 2.0 * margin) / double{kGrid - 1};
   std::vector<Ray> rays;
   for (int x = 0; x < kGrid; ++x)
     for (int y = 0; y < kGrid; ++y)
       for (int z = 0; z < kGrid; ++z)
-        rays.push_back({lo + Vec3d{x * step.x, y * step.y, z * step.z}, dir});
+        rays.push_back({lo + Vec3d{x * step.x, y * step.y, z * step.z}, {1, 0, 0}});
   return rays;
 }
 
@@ -51,36 +51,54 @@ bool is_on_any_triangle(const Scene& scene, const Vec3d& point) {
   return false;
 }
 
-/// Sides by parity along `dir`, of points that are not on the surface.
-void expect_parity(const Scene& scene, const Accelerator& counter, const std::vector<Ray>& points,
-                   const std::vector<Side>& sides) {
-  const std::vector<std::uint32_t> counts = hit_counts(counter, make_batch(points));
-  std::size_t on_surface = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (sides[i] == Side::on_surface) {
-      ++on_surface;
-      ASSERT_TRUE(is_on_any_triangle(scene, points[i].org)) << "point " << i;
-    } else {
-      ASSERT_EQ(sides[i] == Side::inside, counts[i] % 2 == 1) << "point " << i;
+/// Whether the points are inside by parity along each direction; all directions must agree.
+std::vector<bool> parities(const Accelerator& counter, std::vector<Ray> points,
+                           const std::vector<Side>& sides) {
+  std::vector<bool> is_inside(points.size());
+  for (const Vec3d& dir : kDirections) {
+    for (Ray& point : points) point.dir = dir;
+    const std::vector<std::uint32_t> counts = hit_counts(counter, make_batch(points));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (dir == kDirections.front()) is_inside[i] = counts[i] % 2 == 1;
+      if (sides[i] == Side::on_surface) continue;
+      EXPECT_EQ(is_inside[i], counts[i] % 2 == 1) << "point " << i;
     }
   }
-  EXPECT_LT(on_surface, points.size() / 100);
+  return is_inside;
 }
 
-void expect_inside_is_parity(const std::shared_ptr<const Scene>& scene) {
-  const auto counter = build(scene, kDefaultSpec);
+/// Every structure gives these sides; brute force is asked about some of the points.
+void expect_sides(const std::shared_ptr<const Scene>& scene, const std::vector<Ray>& points,
+                  const std::vector<Side>& expected) {
   for (const auto& structure : build_all(scene)) {
     SCOPED_TRACE(structure->spec());
     const bool is_brute = structure->spec() == "brute_force";
-    for (const Vec3d& dir : kDirections) {
-      std::vector<Ray> points = grid_around(scene->total_bounds(), dir);
-      if (is_brute) points = thinned(points, kBrutePoints);
-      const std::vector<Side> sides = sides_of(*structure, make_batch(points));
-      EXPECT_GT(std::count(sides.begin(), sides.end(), Side::inside),
-                static_cast<std::ptrdiff_t>(points.size() / 20));
-      expect_parity(*scene, is_brute ? *structure : *counter, points, sides);
+    const std::size_t step = is_brute ? points.size() / kBrutePoints + 1 : 1;
+    std::vector<Ray> some;
+    for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+    const std::vector<Side> sides = sides_of(*structure, make_batch(some));
+    for (std::size_t i = 0; i < some.size(); ++i)
+      ASSERT_EQ(sides[i], expected[i * step]) << "point " << i * step;
+  }
+}
+
+void expect_inside_is_parity(const std::shared_ptr<const Scene>& scene) {
+  const std::vector<Ray> points = grid_around(scene->total_bounds());
+  const auto counter = build(scene, kDefaultSpec);
+  const std::vector<Side> sides = sides_of(*counter, make_batch(points));
+  const std::vector<bool> is_inside = parities(*counter, points, sides);
+  std::size_t inside = 0, on_surface = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    inside += sides[i] == Side::inside, on_surface += sides[i] == Side::on_surface;
+    if (sides[i] == Side::on_surface) {
+      ASSERT_TRUE(is_on_any_triangle(*scene, points[i].org)) << "point " << i;
+    } else {
+      ASSERT_EQ(sides[i] == Side::inside, is_inside[i]) << "point " << i;
     }
   }
+  EXPECT_GT(inside, points.size() / 20);
+  EXPECT_LT(on_surface, points.size() / 100);
+  expect_sides(scene, points, sides);
 }
 
 /// a + b without rounding, else NaN.

@@ -9,7 +9,7 @@
 namespace strahl::leaks {
 namespace {
 
-constexpr std::size_t kRays = 8000, kBruteForceRays = 100;
+constexpr std::size_t kRays = 5000, kBruteForceRays = 100;
 
 class Leaks : public testing::TestWithParam<Sphere> {};
 

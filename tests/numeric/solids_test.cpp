@@ -110,17 +110,19 @@ std::vector<Affine> exact_maps() {
 TEST_P(Solids, EveryStructureListsTheCrossingsUnderMapsThatDoNotRound) {
   const Solid solid = GetParam()();
   const std::vector<IntegerRay> rays = random_rays(kRays, 3);
+  std::vector<std::vector<IntegerHit>> expected(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    for (const IntegerHit& h : integer_crossings(rays[i].org, rays[i].dir, solid.mesh))
+      if (h.t >= 0) expected[i].push_back(h);
   for (const Affine& map : exact_maps()) {
     const std::vector<Ray> world = mapped(rays, map);
     for (const auto& structure : build_all(scene_of(as_mesh(solid.mesh), {map}))) {
       SCOPED_TRACE(structure->spec());
       const AllHits all = all_hits(*structure, make_batch(world));
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        std::vector<IntegerHit> hits, expected;
+        std::vector<IntegerHit> hits;
         for (const Hit& h : hits_of(all, i)) hits.push_back({h.t, h.id.prim, h.is_front});
-        for (const IntegerHit& h : integer_crossings(rays[i].org, rays[i].dir, solid.mesh))
-          if (h.t >= 0) expected.push_back(h);
-        ASSERT_EQ(hits, expected) << "ray " << i;
+        ASSERT_EQ(hits, expected[i]) << "ray " << i;
       }
     }
   }

@@ -40,8 +40,11 @@ void expect_walks_list_all(const std::shared_ptr<const Scene>& scene,
   for (const auto& structure : build_all(scene))
     for (const bool moves_t_min : {false, true}) {
       SCOPED_TRACE(structure->spec());
-      const auto found = walk(*structure, rays, moves_t_min);
-      for (std::size_t i = 0; i < rays.size(); ++i) {
+      const bool is_brute = structure->spec() == "brute_force";  // a step tests every primitive
+      const std::size_t count = is_brute ? std::max<std::size_t>(rays.size() / 20, 5) : rays.size();
+      const auto found =
+          walk(*structure, {rays.begin(), rays.begin() + std::ptrdiff_t(count)}, moves_t_min);
+      for (std::size_t i = 0; i < count; ++i) {
         const std::span<const Hit> hits = hits_of(expected, i);
         ASSERT_EQ(found[i].size(), hits.size()) << "ray " << i;
         for (std::size_t k = 0; k < hits.size(); ++k)

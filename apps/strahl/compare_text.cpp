@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <apps/strahl/compare_text.h>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include <strahl/base/hash.h>
+#include <strahl/measure/statistics.h>
+
+namespace strahl::cli {
+namespace {
+
+Json per_ray(const Counters& counters, std::size_t rays) {
+  const auto mean = [&](std::uint64_t sum) {
+    return rays > 0 ? static_cast<double>(sum) / static_cast<double>(rays) : 0.0;
+  };
+  return {{"N_TS", mean(counters.traversal_steps)},
+          {"N_ETS", mean(counters.leaves)},
+          {"N_EETS", mean(counters.empty_leaves)},
+          {"N_IT", mean(counters.primitives)},
+          {"N_BIT", mean(counters.bounding_volumes)}};
+}
+
+/// Million rays per second at a quantile of the seconds.
+double mrays(const ComparisonCell& cell, double p) {
+  return cell.seconds.empty() ? 0.0
+                              : static_cast<double>(cell.rays) * 1e-6 / quantile(cell.seconds, p);
+}
+
+/// Time per ray of each repeat.
+std::vector<double> per_ray_seconds(const ComparisonCell& cell) {
+  std::vector<double> seconds;
+  for (const double s : cell.seconds)
+    seconds.push_back(s / static_cast<double>(std::max<std::size_t>(cell.rays, 1)));
+  return seconds;
+}
+
+/// @param first the same workload on the first structure
+Json cell_json(const ComparisonCell& cell, const ComparisonCell& first) {
+  const Estimate slowdown = median_ratio(per_ray_seconds(cell), per_ray_seconds(first));
+  return {{"workload", name_of(cell.workload)},
+          {"rays", cell.rays},
+          {"mrays", mrays(cell, 0.5)},
+          {"mrays_quartiles", {mrays(cell, 0.75), mrays(cell, 0.25)}},
+          {"seconds", cell.seconds},
+          {"time_to_first", {slowdown.value, slowdown.low, slowdown.high}},
+          {"per_ray", per_ray(cell.counters, cell.rays)}};
+}
+
+Json row_json(const ComparisonRow& row, const ComparisonRow& first, std::uint32_t primitives) {
+  Json cells = Json::array();
+  for (std::size_t w = 0; w < row.cells.size(); ++w)
+    cells.push_back(cell_json(row.cells[w], first.cells[w]));
+  Json build = to_json(row.build);
+  build["bytes_per_primitive"] =
+      static_cast<double>(row.build.bytes) / std::max<std::uint32_t>(primitives, 1);
+  return {{"spec", row.spec}, {"build", build}, {"workloads", cells}};
+}
+
+/// "0.123" or, above 100, without decimals.
+std::string number(const Json& value) {
+  const double v = value.get<double>();
+  return v >= 100.0 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
+}
+
+std::string scene_table(const Json& scene) {
+  std::string text = fmt::format("## {}\n\n{} primitives\n\n", scene["scene"].get<std::string>(),
+                                 scene["primitives"].dump());
+  std::string head = "| structure | build s | B/primitive |", rule = "|---|---|---|";
+  for (const Json& workload : scene["workloads"]) {
+    const auto name = workload["workload"].get<std::string>();
+    head += fmt::format(" {0} Mrays/s | time | N_TS | N_ETS | N_IT |", name);
+    rule += "---|---|---|---|---|";
+  }
+  text += head + "\n" + rule + "\n";
+  for (const Json& row : scene["structures"]) {
+    const Json& build = row["build"];
+    text += fmt::format("| `{}` | {} | {} |", row["spec"].get<std::string>(),
+                        number(build["seconds"]), number(build["bytes_per_primitive"]));
+    for (const Json& cell : row["workloads"]) {
+      const Json &time = cell["time_to_first"], &counts = cell["per_ray"];
+      text += fmt::format(" {} | {} ({} to {}) | {} | {} | {} |", number(cell["mrays"]),
+                          number(time[0]), number(time[1]), number(time[2]), number(counts["N_TS"]),
+                          number(counts["N_ETS"]), number(counts["N_IT"]));
+    }
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+Json to_json(const SceneComparison& comparison, const Scene& scene) {
+  Json workloads = Json::array(), structures = Json::array();
+  for (const WorkloadSummary& w : comparison.workloads)
+    workloads.push_back({{"workload", name_of(w.kind)},
+                         {"closest_rays", w.closest_rays},
+                         {"closest_hits", w.closest_hits},
+                         {"any_rays", w.any_rays},
+                         {"any_hits", w.any_hits}});
+  for (const ComparisonRow& row : comparison.rows)
+    structures.push_back(row_json(row, comparison.rows.front(), scene.size()));
+  return {{"scene", scene.data().source},
+          {"scene_hash", to_hex(scene.hash())},
+          {"primitives", scene.size()},
+          {"workloads", workloads},
+          {"structures", structures}};
+}
+
+std::string compare_csv(const Json& document) {
+  std::string text =
+      "scene,structure,workload,build_seconds,bytes,nodes,leaves,empty_leaves,references,sah_cost,"
+      "rays,mrays,time_to_first,time_low,time_high,N_TS,N_ETS,N_EETS,N_IT,N_BIT\n";
+  for (const Json& scene : document["scenes"])
+    for (const Json& row : scene["structures"])
+      for (const Json& cell : row["workloads"]) {
+        // A SPEC may hold commas.
+        text += fmt::format("\"{}\",\"{}\",{}", scene["scene"].get<std::string>(),
+                            row["spec"].get<std::string>(), cell["workload"].get<std::string>());
+        for (const char* key :
+             {"seconds", "bytes", "nodes", "leaves", "empty_leaves", "references", "sah_cost"})
+          text += "," + row["build"][key].dump();
+        text += "," + cell["rays"].dump() + "," + cell["mrays"].dump();
+        for (const Json& value : cell["time_to_first"]) text += "," + value.dump();
+        for (const Json& value : cell["per_ray"]) text += "," + value.dump();
+        text += "\n";
+      }
+  return text;
+}
+
+std::string compare_markdown(const Json& document) {
+  const auto first = [&] {
+    for (const Json& scene : document["scenes"])
+      for (const Json& row : scene["structures"]) return row["spec"].get<std::string>();
+    return std::string("the first structure");
+  };
+  std::string text = fmt::format(
+      "# Comparison\n\nTime: of a ray, relative to `{}`, with the 95 % interval over repeats. "
+      "Steps (N_TS), leaves or cells (N_ETS) and primitive tests (N_IT) are per ray.\n\n",
+      first());
+  for (const Json& scene : document["scenes"]) text += scene_table(scene);
+  return text;
+}
+
+}  // namespace strahl::cli

@@ -1,0 +1,65 @@
+// measure/comparison.h - structures on the same scene and rays, interleaved, with equal answers.
+//
+// Fairness: every structure gets the same rays in the same run; runs of all structures alternate,
+// in another order each round, so that a machine that slows down slows all of them. A structure too
+// slow for its time gets fewer rays, in blocks spread evenly over the set, so that coherence and
+// mixture stay. Every answer is compared bit by bit with that of the first structure.
+// Thread safety: one comparison at a time per process, or times mean nothing.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <strahl/measure/workloads.h>
+
+namespace strahl {
+
+struct ComparisonOptions {
+  std::vector<std::string> specs;
+  std::vector<WorkloadKind> workloads;
+  std::size_t rays = 100'000;     ///< per workload; of `whitted` the primary rays
+  std::size_t min_rays = 10'000;  ///< that every structure is asked, however slow it is
+  int repeats = 5;
+  double seconds_per_cell = 2.0;  ///< that all repeats of one structure on one workload may take
+  std::uint64_t seed = 1;
+};
+
+/// One structure on one workload.
+struct ComparisonCell {
+  WorkloadKind workload = WorkloadKind::primary;
+  std::size_t rays = 0;         ///< per repeat
+  std::vector<double> seconds;  ///< of each repeat
+  Counters counters;            ///< of `rays` rays
+};
+
+/// One structure.
+struct ComparisonRow {
+  std::string spec;
+  BuildReport build;
+  std::vector<ComparisonCell> cells;  ///< in the order of the workloads
+};
+
+/// What a workload is like, by the answers to it.
+struct WorkloadSummary {
+  WorkloadKind kind = WorkloadKind::primary;
+  std::size_t closest_rays = 0, closest_hits = 0, any_rays = 0, any_hits = 0;
+};
+
+struct SceneComparison {
+  std::vector<WorkloadSummary> workloads;
+  std::vector<ComparisonRow> rows;  ///< in the order of the SPECs
+};
+
+/// Builds all structures, traces all workloads from the scene's view and compares.
+/// Throws Error: usage for a bad SPEC or no SPEC, resource, cancelled; std::logic_error naming
+/// SPEC, workload and ray when two structures answer differently.
+SceneComparison compare_structures(const std::shared_ptr<const Scene>& scene, const View& view,
+                                   const ComparisonOptions& options,
+                                   const BuildContext& context = {});
+
+/// At most `count` of the rays (at least one block where there are any), in blocks of 64 that lie
+/// evenly spread over all of them.
+std::vector<std::size_t> spread_blocks(std::size_t rays, std::size_t count);
+
+}  // namespace strahl

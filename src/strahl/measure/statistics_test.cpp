@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include <strahl/base/rng.h>
+#include <strahl/measure/statistics.h>
+
+namespace strahl {
+namespace {
+
+TEST(Statistics, QuantilesInterpolateBetweenOrderStatistics) {
+  EXPECT_EQ(median({3, 1, 2}), 2.0);
+  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_EQ(median({7}), 7.0);
+  EXPECT_EQ(quantile({1, 2, 3, 4, 5}, 0.0), 1.0);
+  EXPECT_EQ(quantile({1, 2, 3, 4, 5}, 1.0), 5.0);
+  EXPECT_DOUBLE_EQ(quantile({1, 2, 3, 4, 5}, 0.9), 4.6);
+}
+
+TEST(Statistics, TheRatioOfPairedMeasurementsIgnoresWhatSlowsBoth) {
+  // Each pair is slowed by another factor: the ratio is that of the quiet machine.
+  const std::vector<double> a{2.0, 4.0, 20.0, 2.2, 6.0}, b{1.0, 2.0, 10.0, 1.1, 3.0};
+  const Estimate e = median_ratio(a, b);
+  EXPECT_DOUBLE_EQ(e.value, 2.0);
+  EXPECT_DOUBLE_EQ(e.low, 2.0);
+  EXPECT_DOUBLE_EQ(e.high, 2.0);
+}
+
+TEST(Statistics, IntervalsHoldTheTruthAboutAsOftenAsTheySay) {
+  Rng rng(5);
+  int held = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> a, b(11, 1.0);
+    for (int i = 0; i < 11; ++i) a.push_back(1.5 + rng.uniform(-0.3, 0.3));
+    const Estimate e = median_ratio(a, b);
+    held += e.low <= 1.5 && 1.5 <= e.high;
+    EXPECT_LE(e.low, e.value);
+    EXPECT_LE(e.value, e.high);
+  }
+  EXPECT_GT(held, 175);
+}
+
+}  // namespace
+}  // namespace strahl
