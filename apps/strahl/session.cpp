@@ -93,14 +93,20 @@ Json to_json(const Aabb& box) {
 }
 
 Json to_json(const BuildReport& report) {
-  return {{"nodes", report.nodes},
-          {"leaves", report.leaves},
-          {"empty_leaves", report.empty_leaves},
-          {"references", report.references},
-          {"depth", report.depth},
-          {"bytes", report.bytes},
-          {"seconds", report.seconds},
-          {"sah_cost", report.sah_cost}};
+  Json json = {{"nodes", report.nodes},
+               {"leaves", report.leaves},
+               {"empty_leaves", report.empty_leaves},
+               {"references", report.references},
+               {"depth", report.depth},
+               {"bytes", report.bytes},
+               {"seconds", report.seconds},
+               {"sah_cost", report.sah_cost}};
+  if (report.binned_planes > 0) {
+    json["binned_planes"] = report.binned_planes;
+    json["binning_loss"] = report.binning_loss;
+    json["largest_binning_loss"] = report.largest_binning_loss;
+  }
+  return json;
 }
 
 Json to_json(const Counters& counters) {

@@ -16,6 +16,10 @@ struct BuildReport {
   std::uint64_t bytes = 0;       ///< live bytes owned, without the scene's own buffers
   double seconds = 0.0;          ///< wall time of the build
   double sah_cost = 0.0;         ///< expected cost per random line, one traversal step = 1
+  /// kd-trees: planes chosen among borders of bins, and the part of such a plane's cost by which it
+  /// may exceed the cheapest plane of its cell: a proven bound, its mean and its largest value.
+  std::uint64_t binned_planes = 0;
+  double binning_loss = 0.0, largest_binning_loss = 0.0;
 };
 
 }  // namespace strahl

@@ -4,7 +4,11 @@
 
 #include <strahl/base/error.h>
 #include <strahl/build/kd_policy.h>
+#include <strahl/build/kd_retract.h>
 #include <strahl/build/space_bins.h>
+#include <strahl/build/space_empty.h>
+#include <strahl/build/space_naive.h>
+#include <strahl/build/space_walls.h>
 
 namespace strahl {
 namespace {
@@ -13,9 +17,17 @@ namespace {
 constexpr std::size_t kWorthABadSplit = 16;
 /// Nodes at least this large ask whether to go on before they are divided.
 constexpr std::size_t kCheckEvery = 1u << 14;
+constexpr double kLossUnits = 0x1p32;
+/// Slanted primitives leave empty space at all sizes: no more cuts in a row than this.
+constexpr int kMostEmptyCuts = 3;
 constexpr std::size_t kMaxReferences = std::numeric_limits<std::uint32_t>::max();
 /// Growing arrays own up to twice what they hold.
 constexpr std::size_t kGrowth = 2;
+
+double volume(const Aabb& box) {
+  const Vec3d e = box.extent();
+  return e.x * e.y * e.z;
+}
 
 /// References gained where the plane cuts `count` fragments into two halves.
 std::size_t added_by(const SplitPlane& plane, std::size_t count) {
@@ -31,38 +43,32 @@ void share_spare(double spare, CellWork& left, std::size_t left_count, CellWork&
   right.spare = spare * (1.0 - left_share);
 }
 
-/// Counts leaves and sums up, over all nodes, the chance to be crossed times the work done there.
-struct Survey {
-  const KdArrays& tree;
-  SahCost cost;
-  double root_area;
-  BuildReport report;
-
-  void visit(std::uint32_t index, const Aabb& cell, std::uint64_t depth) {
-    const KdNode& node = tree.nodes[index];
-    const double share = sah_share(cell.half_area(), root_area);
-    if (node.is_leaf()) {
-      ++report.leaves;
-      report.empty_leaves += node.count() == 0;
-      report.references += node.count();
-      report.depth = std::max(report.depth, depth);
-      report.sah_cost += share * sah_leaf_cost(cost, node.count());
-      return;
-    }
-    // A filter and the plane behind it are one step.
-    if (!node.is_filter()) report.sah_cost += share * cost.traverse;
-    Aabb left = cell, right = cell;
-    if (!node.is_filter()) left.hi[node.axis()] = right.lo[node.axis()] = node.plane();
-    visit(index + 1, left, depth + 1);
-    visit(node.right(), right, depth + 1);
-  }
-};
-
 }  // namespace
+
+void BinningLosses::add(double loss) {
+  const auto units = static_cast<std::uint64_t>(std::clamp(loss, 0.0, 1.0) * kLossUnits);
+  planes_.fetch_add(1, std::memory_order_relaxed);
+  sum_.fetch_add(units, std::memory_order_relaxed);
+  std::uint64_t largest = largest_.load(std::memory_order_relaxed);
+  while (largest < units &&
+         !largest_.compare_exchange_weak(largest, units, std::memory_order_relaxed)) {
+  }
+}
+
+void BinningLosses::write(BuildReport& report) const {
+  report.binned_planes = planes_.load(std::memory_order_relaxed);
+  if (report.binned_planes == 0) return;
+  const auto planes = static_cast<double>(report.binned_planes);
+  report.binning_loss =
+      static_cast<double>(sum_.load(std::memory_order_relaxed)) / kLossUnits / planes;
+  report.largest_binning_loss =
+      static_cast<double>(largest_.load(std::memory_order_relaxed)) / kLossUnits;
+}
 
 KdPolicy::KdPolicy(const PrimitiveSource& source, const KdRules& rules, const BuildContext& context,
                    std::size_t primitives)
     : rules_(rules),
+      source_(source),
       context_(context),
       divide_rules_{rules.clip ? &source : nullptr, false},
       total_(primitives),
@@ -73,6 +79,7 @@ CellWork KdPolicy::make_root(std::span<const PrimRef> refs, const Aabb& box) {
   work.lease = MemoryLease(meter_, refs.size() * (sizeof(PrimRef) + sizeof(Fragment)));
   work.cell = box;
   work.fragments = make_fragments(refs);
+  root_volume_ = volume(box);
   work.spare = (rules_.max_growth - 1.0) * static_cast<double>(refs.size());
   return work;
 }
@@ -80,20 +87,57 @@ CellWork KdPolicy::make_root(std::span<const PrimRef> refs, const Aabb& box) {
 bool KdPolicy::must_be_leaf(const CellWork& work, int depth) const {
   const std::size_t count = work.fragments.size();
   if (count >= kCheckEvery) check_progress();
-  return count <= rules_.max_leaf || depth >= rules_.max_depth;
+  return count <= rules_.max_leaf || depth >= rules_.max_depth ||
+         volume(work.cell) < rules_.min_volume * root_volume_;
+}
+
+bool KdPolicy::is_binned(const CellWork& work) const {
+  return !work.has_events && work.fragments.size() > rules_.sweep_limit;
+}
+
+void KdPolicy::sort_ends(CellWork& work) {
+  if (work.has_events) return;
+  const std::size_t count = work.fragments.size();
+  work.lease = MemoryLease(meter_, count * (sizeof(Fragment) + kSweepBytesPerFragment));
+  work.events = make_sweep_lists(work.fragments, context_.executor);
+  work.has_events = true;
 }
 
 SplitPlane KdPolicy::find_cheapest_plane(CellWork& work) {
-  const PlaneCost cost(work.cell, rules_.cost, rules_.empty_bonus);
+  const PlaneCost cost = cost_in(work.cell);
+  if (!is_binned(work)) return find_plane_exactly(work, cost);
+  const BinnedPlane found =
+      find_plane_by_bins(work.fragments, cost, rules_.bins, context_.executor);
+  work.least_cost = found.least_cost;
+  return found.plane;
+}
+
+SplitPlane KdPolicy::find_plane_exactly(CellWork& work, const PlaneCost& cost) {
   const std::size_t count = work.fragments.size();
-  if (!work.has_events && count > rules_.sweep_limit)
-    return find_plane_by_bins(work.fragments, cost, rules_.bins, context_.executor);
-  if (!work.has_events) {
-    work.lease = MemoryLease(meter_, count * (sizeof(Fragment) + kSweepBytesPerFragment));
-    work.events = make_sweep_lists(work.fragments, context_.executor);
-    work.has_events = true;
+  if (rules_.sweep == KdSweep::count)
+    return find_plane_by_counting(work.fragments, cost, context_.executor);
+  if (rules_.sweep == KdSweep::sort) {
+    const MemoryLease lists(meter_, count * kSweepBytesPerFragment);
+    return find_plane_by_sweep(make_sweep_lists(work.fragments, context_.executor), count, cost,
+                               context_.executor);
   }
+  sort_ends(work);
   return find_plane_by_sweep(work.events, count, cost, context_.executor);
+}
+
+SplitPlane KdPolicy::find_first_plane(const CellWork& work) const {
+  const PlaneCost cost = cost_in(work.cell);
+  SplitPlane plane;
+  if (rules_.empty_cut > 0.0 && work.empty_cuts < kMostEmptyCuts)
+    plane = find_empty_cut(work.fragments, cost, rules_.empty_cut);
+  if (rules_.walls && !pays(work, plane)) plane = find_covered_plane(work.fragments, source_, cost);
+  return pays(work, plane) ? plane : SplitPlane{};
+}
+
+bool KdPolicy::pays(const CellWork& work, const SplitPlane& plane) const {
+  const std::size_t count = work.fragments.size();
+  return plane.is_found() && plane.cost < sah_leaf_cost(rules_.cost, count) &&
+         static_cast<double>(added_by(plane, count)) <= work.spare;
 }
 
 bool KdPolicy::may_divide(CellWork& work, const SplitPlane& plane) const {
@@ -108,11 +152,17 @@ bool KdPolicy::may_divide(CellWork& work, const SplitPlane& plane) const {
 bool KdPolicy::may_split_badly(CellWork& work, const SplitPlane& plane) const {
   const std::size_t count = work.fragments.size();
   const bool divides = std::min(plane.left_count, plane.right_count) < count;
+  if (!rules_.cost_stop) return divides;
   return divides && count >= kWorthABadSplit && ++work.bad_splits <= rules_.bad_splits;
 }
 
 std::pair<CellWork, CellWork> KdPolicy::divide_at(CellWork&& given, const SplitPlane& plane) {
   const CellWork work = std::move(given);  // freed when its halves are made
+  if (work.least_cost < Aabb::kInf) losses_.add(1.0 - work.least_cost / plane.cost);
+  return make_halves(work, plane);
+}
+
+std::pair<CellWork, CellWork> KdPolicy::make_halves(const CellWork& work, const SplitPlane& plane) {
   DivideRules rules = divide_rules_;
   rules.wants_places = work.has_events;
   const std::size_t halves_count = plane.left_count + plane.right_count;
@@ -124,6 +174,8 @@ std::pair<CellWork, CellWork> KdPolicy::divide_at(CellWork&& given, const SplitP
       make_half(work, above(work.cell, plane), std::move(halves.right))};
   const double spare = work.spare - static_cast<double>(added_by(plane, work.fragments.size()));
   share_spare(spare, both.first, plane.left_count, both.second, plane.right_count);
+  const bool cuts_empty = plane.left_count == 0 || plane.right_count == 0;
+  both.first.empty_cuts = both.second.empty_cuts = cuts_empty ? work.empty_cuts + 1 : 0;
   return both;
 }
 
@@ -155,7 +207,8 @@ void KdPolicy::leaf(CellWork&& given, Output& out) {
   const std::size_t count = references.size();
   if (count > KdNode::kMaxIndex || out.references.size() + count > kMaxReferences) refuse_size();
   const auto first = static_cast<std::uint32_t>(out.references.size());
-  add_node(KdNode::leaf(count == 0 ? 0 : count == 1 ? references.front() : first, count), out);
+  const std::uint32_t word = count == 0 ? 0 : count == 1 ? references.front() : first;
+  add_node(KdNode::leaf(word, count), count, out);
   placed_.fetch_add(count, std::memory_order_relaxed);
   if (count < 2) return;
   meter_.take(count * kGrowth * sizeof(std::uint32_t));
@@ -175,12 +228,15 @@ void KdPolicy::append(Output& out, Output&& right) const {
   }
   out.nodes.insert(out.nodes.end(), right.nodes.begin(), right.nodes.end());
   out.references.insert(out.references.end(), right.references.begin(), right.references.end());
+  out.counts.insert(out.counts.end(), right.counts.begin(), right.counts.end());
 }
 
-std::size_t KdPolicy::add_node(KdNode node, Output& out) {
+std::size_t KdPolicy::add_node(KdNode node, std::size_t fragments, Output& out) {
   if (out.nodes.size() >= KdNode::kMaxIndex) refuse_size();
-  meter_.take(kGrowth * sizeof(KdNode));
+  const std::size_t bytes = sizeof(KdNode) + (rules_.retract ? sizeof(std::uint32_t) : 0);
+  meter_.take(kGrowth * bytes);
   out.nodes.push_back(node);
+  if (rules_.retract) out.counts.push_back(static_cast<std::uint32_t>(fragments));
   return out.nodes.size() - 1;
 }
 
@@ -207,19 +263,24 @@ CellWork KdPolicy::make_half(const CellWork& parent, const Aabb& cell, FragmentH
   return work;
 }
 
+KdArrays KdPolicy::finish(Output&& out, const Aabb& root, BuildReport& report) {
+  if (rules_.retract) {
+    const std::size_t most = out.references.size() + out.nodes.size();
+    if (most > kMaxReferences) refuse_size();
+    const MemoryLease moved(meter_, out.references.size() * sizeof(std::uint32_t));
+    retract_kd_tree(out, root, rules_.cost);
+  }
+  KdArrays tree = std::move(out);
+  tree.nodes.shrink_to_fit();
+  tree.references.shrink_to_fit();
+  report = report_kd_tree(tree, root, rules_.cost);
+  losses_.write(report);
+  return tree;
+}
+
 int kd_depth_limit(int wanted, int limit, std::size_t primitives) {
   if (wanted > 0) return wanted;
   return std::min(limit, 8 + 13 * static_cast<int>(std::bit_width(primitives)) / 10);
-}
-
-BuildReport report_kd_tree(const KdArrays& tree, const Aabb& root, const SahCost& cost) {
-  Survey survey{tree, cost, root.half_area(), {}};
-  survey.visit(0, root, 0);
-  survey.report.sah_cost /= cost.traverse;
-  survey.report.nodes = tree.nodes.size();
-  survey.report.bytes =
-      tree.nodes.capacity() * sizeof(KdNode) + tree.references.capacity() * sizeof(std::uint32_t);
-  return survey.report;
 }
 
 }  // namespace strahl

@@ -23,17 +23,31 @@ namespace strahl {
 /// With automatic choice, cells with more fragments are divided at bins, smaller ones exactly.
 inline constexpr std::size_t kAutoSweepLimit = 500'000;
 
+/// How the cheapest plane at any end of a fragment is found; the tree is the same.
+enum class KdSweep {
+  splice,  ///< ends are sorted once and divided with their fragments
+  sort,    ///< ends are sorted in every cell
+  count,   ///< every plane is judged by counting all fragments
+};
+
 /// Where planes are looked for and when a cell stays whole.
 struct KdRules {
   std::string_view name;  ///< of the structure, for messages
   SahCost cost;
   double empty_bonus = 0.1;
-  bool clip = true;                           ///< bound the part of a primitive inside its cell
-  int bins = 64;                              ///< where planes are binned
+  KdSweep sweep = KdSweep::splice;
+  double empty_cut = 0.0;  ///< empty part of a side that is cut off first; 0: none is
+  bool walls = false;      ///< planes that triangles cover are taken first
+  int look_ahead = 0;      ///< levels of planes counted behind the one looked for
+  bool clip = true;        ///< bound the part of a primitive inside its cell
+  int bins = 64;           ///< where planes are binned
   std::size_t sweep_limit = kAutoSweepLimit;  ///< cells with more fragments are binned
   std::size_t max_leaf = 1;
   int max_depth = 64;
-  int bad_splits = 2;  ///< splits on a path that may cost more than a leaf
+  double min_volume = 0.0;  ///< smaller parts of the root's volume are not divided
+  bool cost_stop = true;    ///< a cell stays whole where no plane costs less
+  int bad_splits = 2;       ///< splits on a path that may cost more than a leaf
+  bool retract = false;     ///< what costs no less than a leaf becomes one in the end
   double max_growth = 32.0;
 };
 
@@ -43,14 +57,33 @@ struct CellWork {
   std::vector<Fragment> fragments;
   SweepLists events;
   bool has_events = false;
-  int bad_splits = 0;  ///< splits on the way here that cost more than a leaf
-  double spare = 0.0;  ///< references that planes may still add below this cell
+  int bad_splits = 0;              ///< splits on the way here that cost more than a leaf
+  int empty_cuts = 0;              ///< splits just above that cut off empty space
+  double least_cost = Aabb::kInf;  ///< no plane costs less, where the cheapest was binned
+  double spare = 0.0;              ///< references that planes may still add below this cell
   MemoryLease lease;
+};
+
+/// A tree under construction.
+struct KdOutput : KdArrays {
+  /// Fragments per node, if there is retraction.
+  std::vector<std::uint32_t> counts;
+};
+
+/// What binning may have lost; sums do not depend on the order of the terms.
+class BinningLosses {
+ public:
+  /// @param loss part of a plane's cost by which it may exceed the cheapest
+  void add(double loss);
+  void write(BuildReport& report) const;
+
+ private:
+  std::atomic<std::uint64_t> planes_{0}, sum_{0}, largest_{0};  ///< losses in units of 2^-32
 };
 
 class KdPolicy {
  public:
-  using Output = KdArrays;
+  using Output = KdOutput;
 
   KdPolicy(const PrimitiveSource& source, const KdRules& rules, const BuildContext& context,
            std::size_t primitives);
@@ -63,6 +96,8 @@ class KdPolicy {
   void append(Output& out, Output&& right) const;
   std::size_t weight(const CellWork& work) const { return work.fragments.size(); }
   Output make_output() const { return {}; }
+  /// Retracts, gives back what is not needed and describes the tree, but for the time.
+  KdArrays finish(Output&& out, const Aabb& root, BuildReport& report);
 
  protected:
   /// Whether the cell stays whole whatever planes there are. Reports progress of large cells.
@@ -70,27 +105,46 @@ class KdPolicy {
   /// The cheapest plane at any end of a fragment or at borders of bins. Sorts the ends when the
   /// cell is the first one on its path to be swept.
   SplitPlane find_cheapest_plane(CellWork& work);
+  /// The plane that is cheapest if its sides are divided on, among the cheapest of several places.
+  SplitPlane find_plane_ahead(CellWork& work);
+  /// A plane that is taken, if it pays, before others are looked at: one that cuts off empty space,
+  /// else one that triangles cover.
+  SplitPlane find_first_plane(const CellWork& work) const;
+  /// Whether a plane costs less than a leaf and adds no more references than are left.
+  bool pays(const CellWork& work, const SplitPlane& plane) const;
   /// Whether a plane is worth it, and allowed by the limits; counts bad splits.
   bool may_divide(CellWork& work, const SplitPlane& plane) const;
   std::pair<CellWork, CellWork> divide_at(CellWork&& given, const SplitPlane& plane);
   /// Both parts keep the cell; `is_left` tells for every fragment where it goes.
   std::pair<CellWork, CellWork> divide_by(const CellWork& work, const std::vector<bool>& is_left);
-  std::size_t add_node(KdNode node, Output& out);
+  /// @param fragments in the cell of the node
+  std::size_t add_node(KdNode node, std::size_t fragments, Output& out);
 
   const SahCost& sah() const { return rules_.cost; }
-  double empty_bonus() const { return rules_.empty_bonus; }
+  bool looks_ahead() const { return rules_.look_ahead > 0; }
+  PlaneCost cost_in(const Aabb& cell) const { return {cell, rules_.cost, rules_.empty_bonus}; }
 
  private:
   [[noreturn]] void refuse_size() const;
   void check_progress() const;
   bool may_split_badly(CellWork& work, const SplitPlane& plane) const;
+  bool is_binned(const CellWork& work) const;
+  void sort_ends(CellWork& work);
+  SplitPlane find_plane_exactly(CellWork& work, const PlaneCost& cost);
+  std::vector<SplitPlane> find_candidates(CellWork& work);
+  double cost_ahead(const CellWork& work, const SplitPlane& plane, int levels);
+  double least_cost_ahead(CellWork& work, int levels);
+  std::pair<CellWork, CellWork> make_halves(const CellWork& work, const SplitPlane& plane);
   CellWork make_half(const CellWork& parent, const Aabb& cell, FragmentHalf half);
 
   KdRules rules_;
+  const PrimitiveSource& source_;
   const BuildContext& context_;
   DivideRules divide_rules_;
   std::size_t total_;
+  double root_volume_ = 0.0;
   MemoryMeter meter_;
+  BinningLosses losses_;
   std::atomic<std::uint64_t> placed_{0};
 };
 

@@ -49,9 +49,9 @@ class Borders {
   std::vector<float> at_;
 };
 
-SplitPlane best_border(std::span<const Fragment> fragments, const PlaneCost& cost, std::size_t axis,
-                       int bins) {
-  const Borders borders(cost.cell(), static_cast<int>(axis), bins);
+/// How the fragments lie about every border of one axis.
+std::vector<PlaneCounts> count_about_borders(std::span<const Fragment> fragments,
+                                             const Borders& borders, std::size_t axis) {
   // starts[k]: fragments whose lower end has k borders at or below it; ends[k]: whose upper end has
   // k borders below it; planar[k]: fragments within border k, counted in neither.
   std::vector<std::size_t> starts(borders.size() + 1), ends(borders.size() + 1);
@@ -61,25 +61,77 @@ SplitPlane best_border(std::span<const Fragment> fragments, const PlaneCost& cos
     if (f.is_planar(axis) && start > 0 && borders[start - 1] == f.lo[axis]) ++planar[start - 1];
     ++starts[start], ++ends[borders.count_below(f.hi[axis])];
   }
-  SplitPlane best;
+  std::vector<PlaneCounts> all;
   PlaneCounts counts{0, 0, fragments.size()};
   for (std::size_t k = 0; k < borders.size(); ++k) {
     counts.left += starts[k];  // lower end below border k
     counts.right -= ends[k];   // upper end at or below border k
     counts.planar = planar[k];
-    cost.offer(axis, borders[k], counts, best);
+    all.push_back(counts);
   }
+  return all;
+}
+
+/// No plane strictly between two positions costs less, if the sides hold at least `left` and
+/// `right` of `all` fragments, each of which is on a side. Costs are linear in the position and
+/// grow with the counts, so the least is at an end, what is left over all on one side.
+double least_between(const PlaneCost& cost, std::size_t axis, double from, double to,
+                     std::size_t left, std::size_t right, std::size_t all) {
+  const std::size_t rest = all > left + right ? all - left - right : 0;
+  double least = Aabb::kInf;
+  for (const double at : {from, to})
+    least = std::min(
+        {least, cost.of(axis, at, left + rest, right), cost.of(axis, at, left, right + rest)});
+  return least;
+}
+
+/// No plane off the borders of the axis costs less.
+double least_off_borders(const PlaneCost& cost, std::size_t axis, const Borders& borders,
+                         const std::vector<PlaneCounts>& counts, std::size_t all) {
+  const int a = static_cast<int>(axis);
+  double least = Aabb::kInf;
+  double from = cost.cell().lo[a];
+  std::size_t left = 0;
+  for (std::size_t k = 0; k < borders.size(); ++k) {
+    const auto to = static_cast<double>(borders[k]);
+    const std::size_t right = counts[k].right + counts[k].planar;
+    least = std::min(least, least_between(cost, axis, from, to, left, right, all));
+    from = to, left = counts[k].left + counts[k].planar;
+  }
+  return std::min(least, least_between(cost, axis, from, cost.cell().hi[a], left, 0, all));
+}
+
+BinnedPlane best_border(std::span<const Fragment> fragments, const PlaneCost& cost,
+                        std::size_t axis, int bins) {
+  const Borders borders(cost.cell(), static_cast<int>(axis), bins);
+  const std::vector<PlaneCounts> counts = count_about_borders(fragments, borders, axis);
+  BinnedPlane best;
+  for (std::size_t k = 0; k < borders.size(); ++k)
+    cost.offer(axis, borders[k], counts[k], best.plane);
+  best.least_cost =
+      std::min(best.plane.cost, least_off_borders(cost, axis, borders, counts, fragments.size()));
   return best;
 }
 
 }  // namespace
 
-SplitPlane find_plane_by_bins(std::span<const Fragment> fragments, const PlaneCost& cost, int bins,
-                              const Executor& executor) {
-  std::array<SplitPlane, 3> best;
+BinnedPlane find_plane_by_bins(std::span<const Fragment> fragments, const PlaneCost& cost, int bins,
+                               const Executor& executor) {
+  std::array<BinnedPlane, 3> best;
   for_each_axis(executor, fragments.size(),
                 [&](std::size_t axis) { best[axis] = best_border(fragments, cost, axis, bins); });
-  return cheapest(best);
+  BinnedPlane found{cheapest({best[0].plane, best[1].plane, best[2].plane}), Aabb::kInf};
+  for (const BinnedPlane& one : best) found.least_cost = std::min(found.least_cost, one.least_cost);
+  return found;
+}
+
+void offer_borders(std::span<const Fragment> fragments, int bins, PlaneSlices& slices,
+                   const Executor& executor) {
+  for_each_axis(executor, fragments.size(), [&](std::size_t axis) {
+    const Borders borders(slices.cost().cell(), static_cast<int>(axis), bins);
+    const std::vector<PlaneCounts> counts = count_about_borders(fragments, borders, axis);
+    for (std::size_t k = 0; k < borders.size(); ++k) slices.offer(axis, borders[k], counts[k]);
+  });
 }
 
 }  // namespace strahl

@@ -25,10 +25,15 @@ struct PlaneCounts {
 class PlaneCost {
  public:
   PlaneCost(const Aabb& cell, const SahCost& cost, double empty_bonus)
-      : cell_(cell), cost_(cost), empty_bonus_(empty_bonus), whole_(cell.half_area()) {
+      : cell_(cell), cost_(cost), empty_bonus_(empty_bonus) {
     const Vec3d e = cell.extent();
-    cross_area_ = {e.y * e.z, e.z * e.x, e.x * e.y};
-    cross_girth_ = {e.y + e.z, e.z + e.x, e.x + e.y};
+    const double whole = cell.half_area();
+    const std::array<double, 3> areas{e.y * e.z, e.z * e.x, e.x * e.y};
+    const std::array<double, 3> girths{e.y + e.z, e.z + e.x, e.x + e.y};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      crossing_[axis] = sah_share(areas[axis], whole);
+      growth_[axis] = whole > 0.0 ? girths[axis] / whole : 0.0;
+    }
   }
 
   const Aabb& cell() const { return cell_; }
@@ -43,28 +48,48 @@ class PlaneCost {
   /// Replaces best where the plane lies strictly inside the cell and is cheaper.
   void offer(std::size_t axis, float position, const PlaneCounts& counts, SplitPlane& best) const {
     if (!is_inside(axis, position)) return;
-    const int a = static_cast<int>(axis);
-    const double p = static_cast<double>(position);
-    const double left_share = share(axis, p - cell_.lo[a]);
-    const double right_share = share(axis, cell_.hi[a] - p);
+    const Shares shares = shares_at(axis, static_cast<double>(position));
     const auto try_sides = [&](std::size_t left, std::size_t right, bool is_planar_left) {
-      const double cost = sah_with_empty_bonus(
-          sah_split_cost(cost_, left_share, left, right_share, right), empty_bonus_, left, right);
+      const double cost = of_counts(shares, left, right);
       if (cost < best.cost) best = {axis, position, is_planar_left, left, right, cost};
     };
     try_sides(counts.left + counts.planar, counts.right, true);
     if (counts.planar > 0) try_sides(counts.left, counts.right + counts.planar, false);
   }
 
+  /// Cost of a plane with so many fragments on its sides, anywhere in the cell.
+  double of(std::size_t axis, double position, std::size_t left, std::size_t right) const {
+    return of_counts(shares_at(axis, position), left, right);
+  }
+  /// Cost of the plane where its sides cost `left` and `right` per line that crosses them.
+  double of_sides(const SplitPlane& plane, double left, double right) const {
+    const Shares shares = shares_at(plane.axis, static_cast<double>(plane.position));
+    return sah_with_empty_bonus(cost_.traverse + shares.left * left + shares.right * right,
+                                empty_bonus_, plane.left_count, plane.right_count);
+  }
+  /// Probability that a line in the cell crosses a plane perpendicular to the axis.
+  double crossing(std::size_t axis) const { return crossing_[axis]; }
+  const SahCost& sah() const { return cost_; }
+
  private:
-  double share(std::size_t axis, double length) const {
-    return sah_share(cross_area_[axis] + length * cross_girth_[axis], whole_);
+  /// Probability that a line in the cell crosses the part below (above) a plane.
+  struct Shares {
+    double left, right;
+  };
+  Shares shares_at(std::size_t axis, double position) const {
+    const int a = static_cast<int>(axis);
+    const double least = crossing_[axis], growth = growth_[axis];
+    return {least + (position - cell_.lo[a]) * growth, least + (cell_.hi[a] - position) * growth};
+  }
+  double of_counts(const Shares& shares, std::size_t left, std::size_t right) const {
+    return sah_with_empty_bonus(sah_split_cost(cost_, shares.left, left, shares.right, right),
+                                empty_bonus_, left, right);
   }
 
   Aabb cell_;
   SahCost cost_;
-  double empty_bonus_, whole_;
-  std::array<double, 3> cross_area_, cross_girth_;
+  double empty_bonus_;
+  std::array<double, 3> crossing_, growth_;  ///< share of a part without length, and per length
 };
 
 /// Calls work(axis) for the three axes, at once where there are many fragments.

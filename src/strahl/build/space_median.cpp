@@ -2,6 +2,7 @@
 #include <vector>
 
 #include <strahl/build/space_median.h>
+#include <strahl/build/space_naive.h>
 
 namespace strahl {
 namespace {
@@ -14,13 +15,7 @@ double middle_of(const Fragment& f, std::size_t axis) {
 SplitPlane judged(std::span<const Fragment> fragments, const PlaneCost& cost, std::size_t axis,
                   double position) {
   const float plane = float_below(position);
-  PlaneCounts counts;
-  for (const Fragment& f : fragments) {
-    const bool is_within = f.lo[axis] == plane && f.hi[axis] == plane;
-    counts.planar += is_within;
-    counts.left += !is_within && f.lo[axis] < plane;
-    counts.right += !is_within && f.hi[axis] > plane;
-  }
+  const PlaneCounts counts = count_about(fragments, axis, plane);
   SplitPlane found;
   if (std::min(counts.left, counts.right) < fragments.size())
     cost.offer(axis, plane, counts, found);

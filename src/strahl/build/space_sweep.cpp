@@ -75,4 +75,13 @@ SplitPlane find_plane_by_sweep(const SweepLists& lists, std::size_t fragments,
   return cheapest(best);
 }
 
+void offer_ends(const SweepLists& lists, std::size_t fragments, PlaneSlices& slices,
+                const Executor& executor) {
+  for_each_axis(executor, fragments, [&](std::size_t axis) {
+    for_each_sweep_plane(lists[axis], fragments, [&](float position, const PlaneCounts& counts) {
+      slices.offer(axis, position, counts);
+    });
+  });
+}
+
 }  // namespace strahl

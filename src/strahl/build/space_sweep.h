@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <strahl/base/executor.h>
-#include <strahl/build/space_cost.h>
+#include <strahl/build/space_slices.h>
 
 namespace strahl {
 
@@ -72,5 +72,9 @@ void for_each_sweep_plane(std::span<const SweepEvent> events, std::size_t fragme
 /// when there is none. Ties: lowest axis, then position. O(n).
 SplitPlane find_plane_by_sweep(const SweepLists& lists, std::size_t fragments,
                                const PlaneCost& cost, const Executor& executor);
+
+/// The cheapest plane through an end of any fragment for every slice. O(n).
+void offer_ends(const SweepLists& lists, std::size_t fragments, PlaneSlices& slices,
+                const Executor& executor);
 
 }  // namespace strahl

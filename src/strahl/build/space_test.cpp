@@ -9,6 +9,7 @@
 #include <strahl/build/memory_meter.h>
 #include <strahl/build/space_bins.h>
 #include <strahl/build/space_median.h>
+#include <strahl/build/space_naive.h>
 #include <strahl/build/space_sweep.h>
 
 namespace strahl {
@@ -32,29 +33,6 @@ std::vector<Fragment> lattice_fragments(Rng& rng, std::size_t count) {
     refs.push_back(ref_of(lo, hi, static_cast<std::uint32_t>(i)));
   }
   return make_fragments(refs);
-}
-
-PlaneCounts counted(std::span<const Fragment> fragments, std::size_t axis, float plane) {
-  PlaneCounts counts;
-  for (const Fragment& f : fragments) {
-    const bool is_in_plane = f.lo[axis] == plane && f.hi[axis] == plane;
-    counts.planar += is_in_plane;
-    counts.left += !is_in_plane && f.lo[axis] < plane;
-    counts.right += !is_in_plane && f.hi[axis] > plane;
-  }
-  return counts;
-}
-
-/// Cheapest of all planes through ends, each judged by counting all fragments.
-SplitPlane naive_plane(std::span<const Fragment> fragments, const PlaneCost& cost) {
-  SplitPlane best;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::vector<float> ends;
-    for (const Fragment& f : fragments) ends.insert(ends.end(), {f.lo[axis], f.hi[axis]});
-    std::sort(ends.begin(), ends.end());
-    for (const float end : ends) cost.offer(axis, end, counted(fragments, axis, end), best);
-  }
-  return best;
 }
 
 auto content(const SplitPlane& p) {
@@ -164,7 +142,7 @@ TEST(Sweep, FindsThePlaneThatCountingEveryFragmentFinds) {
     const PlaneCost cost({{0, 0, 0}, {8, 8, 8}}, kUnitCost, round % 2 * 0.2);
     const SweepLists lists = make_sweep_lists(fragments, Executor());
     EXPECT_EQ(content(find_plane_by_sweep(lists, fragments.size(), cost, Executor())),
-              content(naive_plane(fragments, cost)));
+              content(find_plane_by_counting(fragments, cost, Executor())));
   }
 }
 
@@ -178,7 +156,7 @@ TEST(Sweep, IsNotBeatenByDenseSampling) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (int i = 1; i < 10000; ++i) {
       const float p = 8.0f * static_cast<float>(i) / 10000.0f;
-      cost.offer(axis, p, counted(fragments, axis, p), sampled);
+      cost.offer(axis, p, count_about(fragments, axis, p), sampled);
     }
   EXPECT_GE(sampled.cost, best.cost);
 }
@@ -240,16 +218,17 @@ TEST(Bins, CountTheirBordersExactly) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (int j = 1; j < 16; ++j) {
         const float p = 0.5f * static_cast<float>(j);
-        cost.offer(axis, p, counted(fragments, axis, p), expected);
+        cost.offer(axis, p, count_about(fragments, axis, p), expected);
       }
-    EXPECT_EQ(content(find_plane_by_bins(fragments, cost, 16, Executor())), content(expected));
+    EXPECT_EQ(content(find_plane_by_bins(fragments, cost, 16, Executor()).plane),
+              content(expected));
   }
 }
 
 TEST(Bins, FindNoPlaneInACellWithoutRoomForOne) {
   const std::vector<PrimRef> refs{ref_of({1, 1, 1}, {1, 1, 1})};
   const PlaneCost cost({{1, 1, 1}, {1, 1, 1}}, kUnitCost, 0.0);
-  EXPECT_FALSE(find_plane_by_bins(make_fragments(refs), cost, 8, Executor()).is_found());
+  EXPECT_FALSE(find_plane_by_bins(make_fragments(refs), cost, 8, Executor()).plane.is_found());
 }
 
 TEST(MemoryMeter, RefusesWhatPassesTheLimitAndForgetsWhatIsReturned) {

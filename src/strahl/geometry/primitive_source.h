@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include <strahl/geometry/mesh.h>
 #include <strahl/math/aabb.h>
 
 namespace strahl {
@@ -19,6 +21,8 @@ class PrimitiveSource {
   virtual Aabb bounds(std::uint32_t i) const = 0;
   /// Conservative world box of the part of thing i inside box; empty only if that part is.
   virtual Aabb clip(std::uint32_t i, const Aabb& box) const = 0;
+  /// World corners of thing i, rounded, if it is a triangle: to judge by, not to decide hits with.
+  virtual std::optional<TriangleVertices> triangle(std::uint32_t) const { return std::nullopt; }
 };
 
 }  // namespace strahl

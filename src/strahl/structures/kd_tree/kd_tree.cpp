@@ -8,14 +8,18 @@ namespace strahl {
 OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
   using O = KdTreeOptions;
   return {
-      option("split", &O::split,
-             {{"auto", KdSplit::automatic},
-              {"sah_sweep", KdSplit::sah_sweep},
-              {"sah_binned", KdSplit::sah_binned},
-              {"middle", KdSplit::middle},
-              {"median", KdSplit::median}},
-             "plane by cost at any end of a primitive or at borders of bins (auto: ends for up to "
-             "500,000 primitives), or the middle of the cell or of its primitives"),
+      option(
+          "split", &O::split,
+          {{"auto", KdSplit::automatic},
+           {"sah_sweep", KdSplit::sah_sweep},
+           {"sah_sort", KdSplit::sah_sort},
+           {"sah_naive", KdSplit::sah_naive},
+           {"sah_binned", KdSplit::sah_binned},
+           {"middle", KdSplit::middle},
+           {"median", KdSplit::median}},
+          "plane by cost at any end of a primitive (three builders of the same tree: O(n log n), "
+          "O(n log^2 n), O(n^2)) or at borders of bins (auto: ends for up to 500,000 "
+          "primitives), or the middle of the cell or of its primitives"),
       option("axis", &O::axis, {{"longest", KdAxis::longest}, {"round_robin", KdAxis::round_robin}},
              "axis of planes in the middle or at the median"),
       option("bins", &O::bins, 2, 1024, "bins per axis where planes are binned"),
@@ -24,11 +28,20 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
       option("intersect_cost", &O::intersect_cost, 0.001, 1000.0, "cost of a primitive test"),
       option("empty_bonus", &O::empty_bonus, 0.0, 1.0,
              "part of the cost forgiven to planes that cut off empty space"),
+      option("empty_cut", &O::empty_cut, 0.0, 1.0,
+             "empty part of a side that is cut off before other planes are looked at; 0: none is"),
+      option("walls", &O::walls, "divide first at planes that triangles cover completely"),
+      option("look_ahead", &O::look_ahead, 0, 3,
+             "levels of planes behind a plane that are counted in its cost"),
       option("max_leaf", &O::max_leaf, 1, 1000000, "primitives that are never divided"),
       option("max_depth", &O::max_depth, 0, KdTree::kMaxDepth,
              "depth of leaves at most; 0: 8 + 1.3 log2 of the primitives"),
+      option("min_volume", &O::min_volume, 0.0, 1.0,
+             "part of the scene's volume that is never divided"),
+      option("cost_stop", &O::cost_stop, "leave cells whole where planes cost more than a leaf"),
       option("bad_splits", &O::bad_splits, 0, 8,
              "planes on a path that may cost more than a leaf of 16 primitives or more"),
+      option("retract", &O::retract, "make leaves in the end of subtrees that cost no less"),
       option("max_growth", &O::max_growth, 1.0, 1000000.0,
              "references per primitive at most; cells share what is left by their contents"),
   };
@@ -39,8 +52,7 @@ KdTree::KdTree(const PrimitiveSource& source, const Options& options, const Buil
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   for (const PrimRef& ref : refs) root_box_.extend(ref.box);
   max_depth_ = kd_depth_limit(options.max_depth, kMaxDepth, refs.size());
-  tree_ = build_kd_tree(source, std::move(refs), root_box_, options, context);
-  report_ = report_kd_tree(tree_, root_box_, cost_);
+  tree_ = build_kd_tree(source, std::move(refs), root_box_, options, context, report_);
 }
 
 void KdTree::validate(const PrimitiveSource& source) const {

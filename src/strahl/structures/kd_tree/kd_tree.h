@@ -18,7 +18,7 @@
 
 namespace strahl {
 
-enum class KdSplit { automatic, sah_sweep, sah_binned, middle, median };
+enum class KdSplit { automatic, sah_sweep, sah_sort, sah_naive, sah_binned, middle, median };
 enum class KdAxis { longest, round_robin };
 
 /// Defaults of the costs are measured, see README.md.
@@ -30,9 +30,15 @@ struct KdTreeOptions {
   double traverse_cost = 1.0;
   double intersect_cost = 0.7;
   double empty_bonus = 0.1;
+  double empty_cut = 0.0;
+  bool walls = false;
+  int look_ahead = 0;
   int max_leaf = 1;
   int max_depth = 0;
+  double min_volume = 0.0;
+  bool cost_stop = true;
   int bad_splits = 2;
+  bool retract = false;
   double max_growth = 32.0;
 };
 

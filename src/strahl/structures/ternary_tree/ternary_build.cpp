@@ -60,8 +60,9 @@ class TernaryPolicy : public KdPolicy {
     return TernaryPlan{plane};
   }
 
-  std::size_t open(const Work&, const TernaryPlan& plan, Output& out) {
-    return add_node(plan ? KdNode::inner(plan->axis, plan->position) : KdNode::filter(), out);
+  std::size_t open(const Work& work, const TernaryPlan& plan, Output& out) {
+    return add_node(plan ? KdNode::inner(plan->axis, plan->position) : KdNode::filter(),
+                    work.fragments.size(), out);
   }
 
   std::pair<Work, Work> divide(Work&& given, const TernaryPlan& plan) {
@@ -110,15 +111,13 @@ class TernaryPolicy : public KdPolicy {
 
 KdArrays build_ternary_tree(const PrimitiveSource& source, std::vector<PrimRef> refs,
                             const Aabb& root, const TernaryTreeOptions& options,
-                            const BuildContext& context) {
+                            const BuildContext& context, BuildReport& report) {
   TernaryPolicy policy(source, options, context, refs.size());
   TernaryWork work(policy.make_root(refs, root), true);
   const std::size_t total = std::exchange(refs, {}).size();
-  KdArrays tree;
+  KdOutput tree;
   TopDown<TernaryPolicy>(policy, context, total).run(std::move(work), tree);
-  tree.nodes.shrink_to_fit();
-  tree.references.shrink_to_fit();
-  return tree;
+  return policy.finish(std::move(tree), root, report);
 }
 
 }  // namespace strahl

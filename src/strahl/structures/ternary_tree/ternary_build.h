@@ -10,10 +10,11 @@
 
 namespace strahl {
 
-/// Nodes and references of a tree over refs, whose boxes lie in root.
+/// Nodes and references of a tree over refs, whose boxes lie in root. The report receives all but
+/// the time.
 /// Throws Error{resource}, Error{cancelled}.
 KdArrays build_ternary_tree(const PrimitiveSource& source, std::vector<PrimRef> refs,
                             const Aabb& root, const TernaryTreeOptions& options,
-                            const BuildContext& context);
+                            const BuildContext& context, BuildReport& report);
 
 }  // namespace strahl

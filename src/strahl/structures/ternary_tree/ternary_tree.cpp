@@ -55,8 +55,7 @@ TernaryTree::TernaryTree(const PrimitiveSource& source, const Options& options,
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   for (const PrimRef& ref : refs) root_box_.extend(ref.box);
   max_depth_ = kd_depth_limit(options.max_depth, kMaxDepth, refs.size());
-  tree_ = build_ternary_tree(source, std::move(refs), root_box_, options, context);
-  report_ = report_kd_tree(tree_, root_box_, cost_);
+  tree_ = build_ternary_tree(source, std::move(refs), root_box_, options, context, report_);
 }
 
 void TernaryTree::validate(const PrimitiveSource& source) const {

@@ -1,0 +1,176 @@
+// kd_build_bench - how the three exact builders of kd_tree grow with the scene, and one million
+// triangles beside the sweep build of bvh. Processor seconds of one thread, least of the runs.
+//
+//   kd_build_bench [--quick] [--runs N]    quick: smaller scenes; N: default 5
+//
+// Exit status: 1 when two builders make different trees, 2 for a bad command line.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <strahl/base/rng.h>
+#include <strahl/catalog/catalog.h>
+#include <strahl/io/load.h>
+
+namespace {
+
+using namespace strahl;
+using ScenePtr = std::shared_ptr<const Scene>;
+
+struct Limits {
+  int naive = 14, sorted = 21;  ///< powers of two: triangles of the largest scenes
+  int runs = 5;
+};
+
+ScenePtr scene_of(std::vector<Vec3d> vertices, std::vector<std::uint32_t> indices) {
+  SceneData data;
+  Geometry geometry;
+  geometry.mesh = make_mesh(std::move(vertices), std::move(indices));
+  data.geometries.push_back(std::move(geometry));
+  return std::make_shared<const Scene>(std::move(data));
+}
+
+/// A rough surface over the unit square, 2^power triangles: planes cut few of them.
+ScenePtr surface(int power) {
+  const std::uint32_t columns = 1u << (power / 2), rows = 1u << ((power - 1) / 2);
+  Rng rng(1);
+  std::vector<Vec3d> vertices;
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t i = 0; i <= rows; ++i)
+    for (std::uint32_t j = 0; j <= columns; ++j) {
+      const double x = (j + 0.6 * rng.uniform()) / columns, y = (i + 0.6 * rng.uniform()) / rows;
+      vertices.push_back(
+          {x, y, 0.1 * std::sin(9 * x) * std::cos(7 * y) + 0.3 / rows * rng.uniform()});
+      if (i == rows || j == columns) continue;
+      const std::uint32_t a = i * (columns + 1) + j, b = a + columns + 1;
+      indices.insert(indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  return scene_of(std::move(vertices), std::move(indices));
+}
+
+/// Small triangles that fill the unit cube, as long as two are apart: planes cut many of them.
+ScenePtr cloud(int power) {
+  const std::size_t count = std::size_t{1} << power;
+  const double size = std::cbrt(1.0 / static_cast<double>(count));
+  Rng rng(2);
+  std::vector<Vec3d> vertices;
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3d at{rng.uniform(), rng.uniform(), rng.uniform()};
+    for (int k = 0; k < 3; ++k) {
+      indices.push_back(static_cast<std::uint32_t>(vertices.size()));
+      vertices.push_back(at + size * Vec3d{rng.uniform(), rng.uniform(), rng.uniform()});
+    }
+  }
+  return scene_of(std::move(vertices), std::move(indices));
+}
+
+struct Built {
+  double seconds = std::numeric_limits<double>::infinity();
+  std::uint64_t hash = 0, references = 0;
+};
+
+/// Builds the SPECs in turn, `runs` times.
+std::vector<Built> build_all(const ScenePtr& scene, const std::vector<std::string>& specs,
+                             int runs) {
+  std::vector<Built> built(specs.size());
+  for (int run = 0; run < runs; ++run)
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      const std::clock_t begin = std::clock();
+      const auto tree = build(scene, specs[i]);
+      const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      built[i].seconds = std::min(built[i].seconds, seconds);
+      if (run == 0)
+        built[i].hash = tree->tree_hash(), built[i].references = tree->report().references;
+    }
+  return built;
+}
+
+/// Slope of the least-squares line through (log n, log seconds).
+double slope(const std::vector<std::pair<double, double>>& points) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto& [size, seconds] : points) {
+    const double u = std::log(size), v = std::log(seconds);
+    n += 1, x += u, y += v, xx += u * u, xy += u * v;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+bool print_growth(const Limits& limits) {
+  const std::vector<std::string> specs{"kd_tree:split=sah_sweep", "kd_tree:split=sah_sort",
+                                       "kd_tree:split=sah_naive"};
+  std::vector<std::vector<std::pair<double, double>>> points(3);
+  bool agree = true;
+  std::printf("%10s %12s %12s %12s\n", "triangles", "sah_sweep", "sah_sort", "sah_naive");
+  for (int power = 10; power <= limits.sorted; ++power) {
+    const auto specs_here =
+        power <= limits.naive ? specs : std::vector<std::string>{specs.begin(), specs.begin() + 2};
+    const bool is_long = power > 17;
+    const auto built = build_all(surface(power), specs_here, is_long ? 1 : limits.runs);
+    const double size = std::ldexp(1.0, power);
+    std::printf("%10.0f", size);
+    for (std::size_t i = 0; i < built.size(); ++i) {
+      std::printf(" %12.4f", built[i].seconds);
+      points[i].emplace_back(size, built[i].seconds);
+      agree = agree && built[i].hash == built[0].hash;
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+  std::printf("%10s %12.3f %12.3f %12.3f\n", "slope", slope(points[0]), slope(points[1]),
+              slope(points[2]));
+  if (!agree) std::printf("the builders made different trees\n");
+  return agree;
+}
+
+void print_beside_bvh(const Limits& limits) {
+  const int power = std::min(limits.sorted, 20);
+  const auto closed = std::make_shared<const Scene>(
+      load_scene_data(power == 20 ? "gen:icosphere:8" : "gen:icosphere:6"));
+  std::printf("\n%-10s %10s %12s %14s %7s %12s\n", "scene", "triangles", "kd_tree s", "bvh sweep s",
+              "ratio", "references");
+  const std::pair<const char*, ScenePtr> scenes[] = {
+      {"surface", surface(power)}, {"icosphere", closed}, {"cloud", cloud(power)}};
+  for (const auto& [name, scene] : scenes) {
+    const auto built = build_all(scene, {"kd_tree", "bvh:builder=sah_sweep"}, limits.runs);
+    std::printf("%-10s %10u %12.3f %14.3f %7.2f %12llu\n", name, scene->size(), built[0].seconds,
+                built[1].seconds, built[0].seconds / built[1].seconds,
+                static_cast<unsigned long long>(built[0].references));
+    std::fflush(stdout);
+  }
+}
+
+bool parse(int argc, char** argv, Limits& limits) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--quick") == 0) {
+      limits.naive = 12, limits.sorted = 16;
+    } else if (std::strcmp(argv[i], "--runs") == 0 && i + 1 < argc) {
+      const char* text = argv[++i];
+      const char* end = text + std::strlen(text);
+      if (std::from_chars(text, end, limits.runs).ptr != end || limits.runs < 1) return false;
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Limits limits;
+  if (!parse(argc, argv, limits)) {
+    std::fprintf(stderr, "usage: kd_build_bench [--quick] [--runs N]\n");
+    return 2;
+  }
+  const bool agree = print_growth(limits);
+  print_beside_bvh(limits);
+  return agree ? 0 : 1;
+}
