@@ -21,10 +21,9 @@ constexpr std::size_t kGrain = 64, kReportEvery = 1u << 12;
 
 class NestedGridBuilder {
  public:
-  NestedGridBuilder(const PrimitiveSource& source, bool exact, const NestingOptions& options,
+  NestedGridBuilder(const NestedGridInput& input, const NestingOptions& options,
                     const BuildContext& context, const char* what)
-      : source_(source),
-        exact_(exact),
+      : input_(input),
         options_(options),
         context_(context),
         what_(what),
@@ -33,14 +32,19 @@ class NestedGridBuilder {
     quiet_.progress = nullptr;
     sub_.resolution = options.sub_resolution, sub_.density = options.sub_density;
     sub_.nx = sub_.ny = sub_.nz = options.sub_n;
-    sub_.exact = exact;
   }
 
-  std::uint32_t run(const CellGrid& grid, NestedGrids& out) {
-    total_ = grid.lists.references.size();
-    meter_.take(grid.lists.bytes() + out.bytes());
-    const double words = options_.max_growth * static_cast<double>(source_.size());
-    return place(grid, 1, words, out);
+  std::uint32_t run(const CellGridOptions& options, NestedGrids& out) {
+    const std::span<const PrimRef> refs = input_.refs;
+    Aabb box;
+    for (const PrimRef& ref : refs) box.extend(ref.box);
+    if (box.is_empty()) box = {{}, {}};
+    meter_.take(input_.owned + refs.size_bytes() + out.bytes());
+    const auto grid = fit({input_.source, refs, input_.exact, UINT32_MAX}, box, options);
+    if (!grid) throw Error(ErrorCode::resource, "more than 2^32 references in the cells", what_);
+    total_ = grid->lists.references.size();
+    meter_.take(grid->lists.bytes());
+    return place(*grid, 1, options_.max_growth * static_cast<double>(refs.size()), out);
   }
 
  private:
@@ -137,18 +141,23 @@ class NestedGridBuilder {
 
   std::optional<CellGrid> divide_box(const Aabb& box, std::span<const std::uint32_t> list,
                                      double words) {
-    const std::vector<PrimRef> parts = nested_parts(source_, box, list, exact_);
+    const std::vector<PrimRef> parts = nested_parts(input_.source, box, list, input_.exact);
     constexpr double kMost = 1 << 30;
     CellGridOptions options = sub_;
     options.max_cells = static_cast<int>(std::min(kMost, 0.25 * words));
     const auto most = static_cast<std::uint64_t>(std::min(kMost, 0.5 * words));
-    const BuildContext& context = list.size() < kReportEvery ? quiet_ : context_;
-    auto sub = fit_cell_grid({source_, parts, exact_, most}, box, options, meter_.bytes(), context);
+    auto sub = fit({input_.source, parts, input_.exact, most}, box, options);
     if (!sub || sub->cells.count() == 1) return {};
     const double cost = kEnterCost + report_of(*sub).sah_cost;
     if (options_.decide == NestingDecision::cost && !(cost < static_cast<double>(list.size())))
       return {};
     return sub;
+  }
+
+  std::optional<CellGrid> fit(const CellListInput& input, const Aabb& box,
+                              const CellGridOptions& options) const {
+    const BuildContext& context = input.refs.size() < kReportEvery ? quiet_ : context_;
+    return fit_cell_grid(input, box, options, meter_.bytes(), context);
   }
 
   /// Asks whether to go on, now and then; told are the references of the outermost grid.
@@ -160,8 +169,7 @@ class NestedGridBuilder {
     context_.check(std::min(1.0, done / static_cast<double>(total_)), "dividing cells");
   }
 
-  const PrimitiveSource& source_;
-  bool exact_;
+  const NestedGridInput& input_;
   const NestingOptions& options_;
   const BuildContext& context_;
   const char* what_;
@@ -210,10 +218,10 @@ void NestedGrids::append(const NestedGrids& more, const char* what) {
     entries.push_back(is_grid(e) ? e + static_cast<std::uint32_t>(grid) : e);
 }
 
-std::uint32_t add_nested_grid(const PrimitiveSource& source, const CellGrid& grid, bool exact,
-                              const NestingOptions& options, const BuildContext& context,
+std::uint32_t add_nested_grid(const NestedGridInput& input, const CellGridOptions& options,
+                              const NestingOptions& nesting, const BuildContext& context,
                               const char* what, NestedGrids& out) {
-  return NestedGridBuilder(source, exact, options, context, what).run(grid, out);
+  return NestedGridBuilder(input, nesting, context, what).run(options, out);
 }
 
 }  // namespace strahl

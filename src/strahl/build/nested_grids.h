@@ -104,11 +104,20 @@ void require_entries(const PrimitiveSource& source, const char* what);
 std::vector<PrimRef> nested_parts(const PrimitiveSource& source, const Aabb& box,
                                   std::span<const std::uint32_t> list, bool exact);
 
-/// Appends a grid, and sub-grids for its crowded cells, to `out`. Deterministic for any executor.
-/// Throws Error{resource, cancelled}. @param what names the structure in messages
+/// What a grid is made of.
+struct NestedGridInput {
+  const PrimitiveSource& source;  ///< also of grids as objects, by their entries
+  std::span<const PrimRef> refs;  ///< ascending
+  bool exact = true;              ///< primitives decide, not their boxes
+  std::uint64_t owned = 0;        ///< bytes that the caller holds, without refs and `out`
+};
+
+/// Appends a grid over the boxes of the refs, and sub-grids for its crowded cells, to `out`.
+/// Deterministic for any executor. Throws Error{resource, cancelled}.
+/// @param what names the structure in messages
 /// @return the index of the grid
-std::uint32_t add_nested_grid(const PrimitiveSource& source, const CellGrid& grid, bool exact,
-                              const NestingOptions& options, const BuildContext& context,
+std::uint32_t add_nested_grid(const NestedGridInput& input, const CellGridOptions& options,
+                              const NestingOptions& nesting, const BuildContext& context,
                               const char* what, NestedGrids& out);
 
 /// Cells, references and cost of grid 0 and all below it; depth counts the grids around a cell but

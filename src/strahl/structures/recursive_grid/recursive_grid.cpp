@@ -17,8 +17,8 @@ RecursiveGrid::RecursiveGrid(const PrimitiveSource& source, const Options& optio
                              const BuildContext& context)
     : max_growth_(options.max_growth), is_exact_(options.exact), has_mailbox_(options.mailbox) {
   require_entries(source, kName);
-  const CellGrid outer = make_cell_grid(source, options, UINT32_MAX, kName, context);
-  add_nested_grid(source, outer, is_exact_, options, context, kName, grids_);
+  const std::vector<PrimRef> refs = make_prim_refs(source, context);
+  add_nested_grid({source, refs, is_exact_}, options, options, context, kName, grids_);
   grids_.shrink_to_fit();
   report_ = report_of(grids_);
 }
