@@ -120,12 +120,12 @@ std::uint32_t add_nested_grid(const NestedGridInput& input, const CellGridOption
                               const NestingOptions& nesting, const BuildContext& context,
                               const char* what, NestedGrids& out);
 
-/// Cells, references and cost of grid 0 and all below it; depth counts the grids around a cell but
-/// one. A cell that lists a grid is no leaf.
-BuildReport report_of(const NestedGrids& grids);
+/// Cells, references and cost of a grid and all in it; depth counts the grids around a cell but
+/// one. A cell that lists a grid is no leaf. Bytes are those of all grids.
+BuildReport report_of(const NestedGrids& grids, std::uint32_t grid = 0);
 
-/// Words of 4 bytes in all grids but the first.
-std::uint64_t sub_grid_words(const NestedGrids& grids);
+/// Words of 4 bytes in all grids but the given ones.
+std::uint64_t sub_grid_words(const NestedGrids& grids, std::span<const std::uint32_t> outermost);
 
 /// Expected cost of a random line that meets the grid, a cell or a test being 1.
 double cost_of(const NestedGrids& grids, std::uint32_t grid);
@@ -142,7 +142,7 @@ std::vector<std::uint32_t> nested_contents(const NestedGrids& grids, std::uint32
 void check_nested_grid(const NestedGrids& grids, std::uint32_t grid, std::span<const PrimRef> refs,
                        bool exact, const PrimitiveSource& source, const char* what);
 
-/// Throws std::logic_error unless the report counts what report_of() does.
-void check_nested_report(const NestedGrids& grids, const BuildReport& report, const char* what);
+/// Throws std::logic_error unless both count the same nodes, leaves and references.
+void check_same_counts(const BuildReport& report, const BuildReport& counted, const char* what);
 
 }  // namespace strahl

@@ -87,7 +87,7 @@ void Hug::validate(const PrimitiveSource& source) const {
     boxes.push_back(box);
   }
   HugChecker(grids_, is_exact_, HugSource(source, std::move(boxes))).run(min_cluster_);
-  check_nested_report(grids_, report_, kName);
+  check_same_counts(report_, report_of(grids_), kName);
 }
 
 }  // namespace strahl

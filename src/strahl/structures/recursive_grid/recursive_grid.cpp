@@ -26,9 +26,10 @@ RecursiveGrid::RecursiveGrid(const PrimitiveSource& source, const Options& optio
 void RecursiveGrid::validate(const PrimitiveSource& source) const {
   const std::vector<PrimRef> refs = make_prim_refs(source, {});
   check_nested_grid(grids_, 0, refs, is_exact_, source, kName);
-  check_nested_report(grids_, report_, kName);
+  check_same_counts(report_, report_of(grids_), kName);
   const double limit = max_growth_ * static_cast<double>(source.size());
-  if (static_cast<double>(sub_grid_words(grids_)) > limit)
+  const std::uint32_t outermost = 0;
+  if (static_cast<double>(sub_grid_words(grids_, {&outermost, 1})) > limit)
     throw std::logic_error("recursive_grid: sub-grids are larger than allowed");
 }
 
