@@ -21,29 +21,35 @@ CellPosition wanted_resolution(const Aabb& box, double cells, const CellGridOpti
 
 }  // namespace
 
-CellGrid make_cell_grid(const PrimitiveSource& source, const CellGridOptions& options,
-                        std::uint64_t most, const char* what, const BuildContext& context) {
-  const std::vector<PrimRef> refs = make_prim_refs(source, context);
-  CellListInput input{source, refs, options.exact, most};
-  const auto count = static_cast<double>(refs.size());
-  Aabb box;
-  for (const PrimRef& ref : refs) box.extend(ref.box);
-  if (box.is_empty()) box = {{}, {}};
+std::optional<CellGrid> fit_cell_grid(CellListInput input, const Aabb& box,
+                                      const CellGridOptions& options, std::uint64_t owned,
+                                      const BuildContext& context) {
+  const auto count = static_cast<double>(input.refs.size());
   const bool is_fixed = options.resolution == GridResolution::fixed;
   const auto max_cells = static_cast<std::uint64_t>(options.max_cells);
   double wanted = std::max(1.0, options.density * count);
   const double useful = kMostReferences * std::max(wanted, count);
-  if (!is_fixed && useful < static_cast<double>(most))
+  if (!is_fixed && useful < static_cast<double>(input.most))
     input.most = static_cast<std::uint64_t>(useful);
   for (;; wanted /= 4) {
     const CellPosition n = wanted_resolution(box, wanted, options);
     const UniformCells cells(box, limited_resolution(box, n, max_cells));
-    auto lists = make_cell_lists(cells, input, input.refs.size_bytes(), context);
-    if (lists) return {cells, std::move(*lists)};
-    if (is_fixed)
-      throw Error(ErrorCode::resource,
-                  "more than " + std::to_string(most) + " references in the cells", what);
+    auto lists = make_cell_lists(cells, input, owned + input.refs.size_bytes(), context);
+    if (lists) return CellGrid{cells, std::move(*lists)};
+    if (is_fixed || cells.count() == 1) return std::nullopt;
   }
+}
+
+CellGrid make_cell_grid(const PrimitiveSource& source, const CellGridOptions& options,
+                        std::uint64_t most, const char* what, const BuildContext& context) {
+  const std::vector<PrimRef> refs = make_prim_refs(source, context);
+  Aabb box;
+  for (const PrimRef& ref : refs) box.extend(ref.box);
+  if (box.is_empty()) box = {{}, {}};
+  auto grid = fit_cell_grid({source, refs, options.exact, most}, box, options, 0, context);
+  if (grid) return std::move(*grid);
+  throw Error(ErrorCode::resource, "more than " + std::to_string(most) + " references in the cells",
+              what);
 }
 
 /// Expected cost of a line that meets the box, a cell or a test being 1: all cells are alike, each

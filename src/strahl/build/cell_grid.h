@@ -53,6 +53,12 @@ struct CellGrid {
 CellGrid make_cell_grid(const PrimitiveSource& source, const CellGridOptions& options,
                         std::uint64_t most, const char* what, const BuildContext& context);
 
+/// The same over given primitives, into a given box; empty where make_cell_grid() would throw for
+/// too many references. @param owned bytes that the caller holds, without input.refs
+std::optional<CellGrid> fit_cell_grid(CellListInput input, const Aabb& box,
+                                      const CellGridOptions& options, std::uint64_t owned,
+                                      const BuildContext& context);
+
 /// Counts and cost of a grid; bytes are those of the lists.
 BuildReport report_of(const CellGrid& grid);
 

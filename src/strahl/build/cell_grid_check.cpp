@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <strahl/build/cell_check.h>
 #include <strahl/build/cell_grid.h>
 
 namespace strahl {
@@ -52,7 +53,7 @@ class CellGridChecker {
   std::uint64_t check_primitive(std::uint32_t i, const Aabb& box) {
     CellRange range[3];
     for (int axis = 0; axis < 3; ++axis) {
-      range[axis] = touched(axis, box);
+      range[axis] = touched_by_planes(cells_, axis, box);
       demand(range[axis].size() > 0, "a primitive is outside the grid");
     }
     std::uint64_t found = 0;
@@ -62,42 +63,10 @@ class CellGridChecker {
           const std::span<const std::uint32_t> list = lists_[cells_.index({x, y, z})];
           const bool is_listed = std::binary_search(list.begin(), list.end(), i);
           found += is_listed;
-          if (!is_listed) demand_absent(i, box, cells_.box({x, y, z}));
+          if (!is_listed) demand_absent(source_, is_exact_, {box, i}, cells_.box({x, y, z}), what_);
         }
     demand(found > 0, "a primitive is in no cell");
     return found;
-  }
-
-  /// First and last closed cell that the box touches, by bisection over the planes.
-  CellRange touched(int axis, const Aabb& box) const {
-    const auto count_planes = [&](auto is_before) {
-      int low = 0, high = cells_.n(axis) + 1;
-      while (low < high) {
-        const int middle = (low + high) / 2;
-        if (is_before(cells_.plane(axis, middle)))
-          low = middle + 1;
-        else
-          high = middle;
-      }
-      return low;
-    };
-    const int before = count_planes([&](double p) { return p < box.lo[axis]; });
-    const int up_to = count_planes([&](double p) { return p <= box.hi[axis]; });
-    return {std::max(before - 1, 0), std::min(up_to - 1, cells_.n(axis) - 1)};
-  }
-
-  /// The primitive, listed nowhere in the cell, must not meet it; along axes on which the primitive
-  /// reaches beyond the cell, a rim is left out in which bounds of parts may be off by rounding.
-  void demand_absent(std::uint32_t i, const Aabb& box, const Aabb& cell) const {
-    demand(is_exact_, "a cell that a primitive's box touches does not list it");
-    const double rim = 1024 * 0x1p-53 * std::max(norm_max(box.lo), norm_max(box.hi));
-    Aabb core = cell;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (box.lo[axis] < cell.lo[axis]) core.lo[axis] += rim;
-      if (box.hi[axis] > cell.hi[axis]) core.hi[axis] -= rim;
-    }
-    if (core.is_empty()) return;
-    demand(source_.clip(i, core).is_empty(), "a cell that a primitive meets does not list it");
   }
 
   const UniformCells& cells_;
@@ -109,6 +78,42 @@ class CellGridChecker {
 };
 
 }  // namespace
+
+CellRange touched_by_planes(const UniformCells& cells, int axis, const Aabb& box) {
+  const auto count_planes = [&](auto is_before) {
+    int low = 0, high = cells.n(axis) + 1;
+    while (low < high) {
+      const int middle = (low + high) / 2;
+      if (is_before(cells.plane(axis, middle)))
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  };
+  const int before = count_planes([&](double p) { return p < box.lo[axis]; });
+  const int up_to = count_planes([&](double p) { return p <= box.hi[axis]; });
+  return {std::max(before - 1, 0), std::min(up_to - 1, cells.n(axis) - 1)};
+}
+
+/// Along axes on which the primitive reaches beyond the cell, a rim is left out in which bounds of
+/// parts may be off by rounding.
+void demand_absent(const PrimitiveSource& source, bool exact, const PrimRef& ref, const Aabb& cell,
+                   const char* what) {
+  const auto demand = [what](bool holds, const char* broken) {
+    if (!holds) throw std::logic_error(std::string(what) + ": " + broken);
+  };
+  demand(exact, "a cell that a primitive's box touches does not list it");
+  const double rim = 1024 * 0x1p-53 * std::max(norm_max(ref.box.lo), norm_max(ref.box.hi));
+  Aabb core = cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ref.box.lo[axis] < cell.lo[axis]) core.lo[axis] += rim;
+    if (ref.box.hi[axis] > cell.hi[axis]) core.hi[axis] -= rim;
+  }
+  if (core.is_empty()) return;
+  demand(source.clip(ref.reference, core).is_empty(),
+         "a cell that a primitive meets does not list it");
+}
 
 void check_cell_grid(const CellGrid& grid, const BuildReport& report, bool exact,
                      const PrimitiveSource& source, const char* what) {

@@ -22,6 +22,8 @@ class MemoryMeter {
   void take(std::uint64_t bytes) {
     context_.require_memory(bytes_.fetch_add(bytes, std::memory_order_relaxed) + bytes, what_);
   }
+  /// What is taken at the moment.
+  std::uint64_t bytes() const { return bytes_.load(std::memory_order_relaxed); }
   void give_back(std::uint64_t bytes) { bytes_.fetch_sub(bytes, std::memory_order_relaxed); }
 
  private:

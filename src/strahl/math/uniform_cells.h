@@ -58,6 +58,11 @@ class UniformCells {
     return static_cast<std::size_t>(at[0]) + stride(1) * static_cast<std::size_t>(at[1]) +
            stride(2) * static_cast<std::size_t>(at[2]);
   }
+  CellPosition position(std::size_t index) const {
+    const std::size_t nx = stride(1), ny = static_cast<std::size_t>(n_[1]);
+    return {static_cast<int>(index % nx), static_cast<int>(index / nx % ny),
+            static_cast<int>(index / nx / ny)};
+  }
   Aabb box(const CellPosition& at) const {
     return {{plane(0, at[0]), plane(1, at[1]), plane(2, at[2])},
             {plane(0, at[0] + 1), plane(1, at[1] + 1), plane(2, at[2] + 1)}};

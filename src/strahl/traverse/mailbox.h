@@ -16,12 +16,11 @@
 
 namespace strahl {
 
-/// The references met last, at most one per slot.
-class Mailbox {
+/// The references met last, at most one per slot. @tparam kSlots a multiple of 64
+template <std::uint32_t kSlots>
+class SlotMailbox {
  public:
-  static constexpr std::uint32_t kSlots = 1024;
-
-  Mailbox() { used_.fill(0); }
+  SlotMailbox() { used_.fill(0); }
   /// Whether the reference has to be tested: it is not known to have been admitted before.
   bool admit(std::uint32_t reference) {
     const std::uint32_t slot = reference % kSlots;
@@ -35,6 +34,12 @@ class Mailbox {
  private:
   std::array<std::uint64_t, kSlots / 64> used_;
   std::array<std::uint32_t, kSlots> slots_;  // read only where used_ says so
+};
+
+/// For primitives.
+class Mailbox : public SlotMailbox<1024> {
+ public:
+  static constexpr std::uint32_t kSlots = 1024;
 };
 
 /// Primitives behind a mailbox; takes the place of Prims for one ray.
