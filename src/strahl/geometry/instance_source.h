@@ -23,6 +23,7 @@ class ObjectSource final : public PrimitiveSource {
   Aabb clip(std::uint32_t i, const Aabb& box) const override {
     return scene_.object_clip(reference(i), box);
   }
+  Outline outline(std::uint32_t i) const override;
 
  private:
   std::uint32_t reference(std::uint32_t i) const { return scene_.first_reference(instance_) + i; }

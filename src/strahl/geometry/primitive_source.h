@@ -9,6 +9,8 @@
 
 namespace strahl {
 
+struct Outline;
+
 /// A numbered set of things with boxes: primitives of a scene, or instances with their contents.
 class PrimitiveSource {
  public:
@@ -19,6 +21,8 @@ class PrimitiveSource {
   virtual Aabb bounds(std::uint32_t i) const = 0;
   /// Conservative world box of the part of thing i inside box; empty only if that part is.
   virtual Aabb clip(std::uint32_t i, const Aabb& box) const = 0;
+  /// A convex set closer than the box where one is known (geometry/outline.h). bounds(i) not empty.
+  virtual Outline outline(std::uint32_t i) const;
 };
 
 }  // namespace strahl
