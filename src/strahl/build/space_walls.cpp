@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include <strahl/build/coverage.h>
 #include <strahl/build/space_naive.h>
 #include <strahl/build/space_walls.h>
+#include <strahl/geometry/outline.h>
 
 namespace strahl {
 namespace {
@@ -60,8 +60,10 @@ class WallFinder {
     if (!(boxes >= kEnough)) return false;
     OpenArea open;
     for (const Fragment* f : group) {
-      const std::optional<TriangleVertices> t = source_.triangle(f->reference);
-      if (t) open.cover({on_section(t->a), on_section(t->b), on_section(t->c)});
+      const Outline t = source_.outline(f->reference);
+      if (t.is_triangle())
+        open.cover({on_section(t.ball[0].center), on_section(t.ball[1].center),
+                    on_section(t.ball[2].center)});
       if (open.is_covered()) return true;
       if (open.is_scattered()) return false;
     }

@@ -92,7 +92,8 @@ class Accelerator {
   const Scene& scene() const { return *scene_; }
   /// Canonical SPEC: name and the options that differ from their defaults.
   const std::string& spec() const { return spec_; }
-  const BuildReport& report() const { return report_; }
+  /// What the structure owns now. Only one that builds on while rays are traced changes it.
+  virtual BuildReport report() const = 0;
 
   /// The first hit of each ray in the order of hits. hits.size() == rays.size(), else Error{usage}.
   /// A miss has reference kNoId and t = inf. O(n * k), k primitives and nodes met per ray.
@@ -128,7 +129,6 @@ class Accelerator {
 
   std::shared_ptr<const Scene> scene_;
   std::string spec_;
-  BuildReport report_;
 
  private:
   using AnswerSpan = function_ref<BatchReport(SpanJob& span)>;

@@ -123,7 +123,7 @@ TEST_P(EveryStructure, HonoursCancelAndMemoryLimit) {
 
 TEST_P(EveryStructure, ReportsWhatItBuilt) {
   const auto accelerator = build(square(), GetParam());
-  const BuildReport& report = accelerator->report();
+  const BuildReport report = accelerator->report();
   EXPECT_GE(report.nodes, report.leaves);
   EXPECT_GE(report.references, 2u);
   EXPECT_GT(report.bytes, 0u);

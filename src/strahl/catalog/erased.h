@@ -34,9 +34,11 @@ class Erased final : public Accelerator {
       : Accelerator(std::move(scene), canonical_spec(S::kName, format_options(options))),
         structure_(*scene_, options, context) {}
 
-  void set_seconds(double seconds) {
-    report_ = structure_.report();
-    report_.seconds = seconds;
+  void set_seconds(double seconds) { seconds_ = seconds; }
+  BuildReport report() const override {
+    BuildReport report = structure_.report();
+    report.seconds = seconds_;
+    return report;
   }
   void validate() const override {
     const FpEnvGuard environment;
@@ -151,6 +153,7 @@ class Erased final : public Accelerator {
   }
 
   S structure_;
+  double seconds_ = 0.0;
 };
 
 /// The catalogue's row for S.

@@ -23,9 +23,7 @@ class ObjectSource final : public PrimitiveSource {
   Aabb clip(std::uint32_t i, const Aabb& box) const override {
     return scene_.object_clip(reference(i), box);
   }
-  std::optional<TriangleVertices> triangle(std::uint32_t i) const override {
-    return scene_.object_triangle(reference(i));
-  }
+  Outline outline(std::uint32_t i) const override;
 
  private:
   std::uint32_t reference(std::uint32_t i) const { return scene_.first_reference(instance_) + i; }

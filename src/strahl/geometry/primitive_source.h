@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
-#include <strahl/geometry/mesh.h>
 #include <strahl/math/aabb.h>
 
 namespace strahl {
+
+struct Outline;
 
 /// A numbered set of things with boxes: primitives of a scene, or instances with their contents.
 class PrimitiveSource {
@@ -21,8 +21,8 @@ class PrimitiveSource {
   virtual Aabb bounds(std::uint32_t i) const = 0;
   /// Conservative world box of the part of thing i inside box; empty only if that part is.
   virtual Aabb clip(std::uint32_t i, const Aabb& box) const = 0;
-  /// World corners of thing i, rounded, if it is a triangle: to judge by, not to decide hits with.
-  virtual std::optional<TriangleVertices> triangle(std::uint32_t) const { return std::nullopt; }
+  /// A convex set closer than the box where one is known (geometry/outline.h). bounds(i) not empty.
+  virtual Outline outline(std::uint32_t i) const;
 };
 
 }  // namespace strahl

@@ -244,20 +244,6 @@ Aabb Scene::object_clip(std::uint32_t reference, const Aabb& box) const {
   return strahl::clip(g.mesh[reference - part.first_reference], box);
 }
 
-std::optional<TriangleVertices> Scene::object_triangle(std::uint32_t reference) const {
-  const Part& part = part_of(reference);
-  const Geometry& g = data_.geometries[part.geometry];
-  if (g.kind != PrimitiveKind::triangle) return std::nullopt;
-  return g.mesh[reference - part.first_reference];
-}
-
-std::optional<TriangleVertices> Scene::triangle(std::uint32_t reference) const {
-  const std::optional<TriangleVertices> own = object_triangle(reference);
-  const std::uint32_t instance = part_of(reference).instance;
-  if (!own || is_identity_[instance]) return own;
-  return transformed(data_.instances[instance].to_world, *own);
-}
-
 Aabb Scene::bounds(std::uint32_t reference) const {
   const Part& part = part_of(reference);
   const Aabb own = object_bounds(reference);

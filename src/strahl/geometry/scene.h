@@ -134,11 +134,11 @@ class Scene final : public PrimitiveSource {
   Aabb bounds(std::uint32_t reference) const override;
   /// Conservative world box of the part of the reference inside box; empty only if that part is.
   Aabb clip(std::uint32_t reference, const Aabb& box) const override;
-  std::optional<TriangleVertices> triangle(std::uint32_t reference) const override;
+  Outline outline(std::uint32_t reference) const override;
   /// The same in the object space of the reference's instance.
   Aabb object_bounds(std::uint32_t reference) const;
   Aabb object_clip(std::uint32_t reference, const Aabb& box) const;
-  std::optional<TriangleVertices> object_triangle(std::uint32_t reference) const;
+  Outline object_outline(std::uint32_t reference) const;
   /// Union of all reference boxes.
   const Aabb& total_bounds() const { return bounds_; }
 
