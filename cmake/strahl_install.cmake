@@ -25,9 +25,9 @@ install(FILES ${PROJECT_BINARY_DIR}/strahlConfig.cmake
               ${PROJECT_BINARY_DIR}/strahlConfigVersion.cmake DESTINATION ${package_dir})
 
 # A static library needs its dependencies on the user's link line, a shared one does not.
-set(pc_requires "")
+set(pc_requires qhull_r)
 if(STRAHL_USES_TBB)
-  set(pc_requires tbb)
+  string(APPEND pc_requires " tbb")
 endif()
 get_target_property(library_type strahl TYPE)
 if(library_type STREQUAL "STATIC_LIBRARY")
