@@ -81,6 +81,8 @@ class Comparison {
           make_workload(options_.workloads[w], *built_.front(), wanted, context_);
       measure(workload, static_cast<double>(w) / static_cast<double>(options_.workloads.size()));
     }
+    // Some build on while rays are traced.
+    for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].build = built_[i]->report();
     return std::move(result_);
   }
 
