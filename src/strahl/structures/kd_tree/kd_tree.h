@@ -41,7 +41,7 @@ struct KdTreeOptions {
   double min_volume = 0.0;
   bool cost_stop = true;
   int bad_splits = 2;
-  bool retract = false;
+  bool retract = true;
   double max_growth = 32.0;
   KdTraversal traversal = KdTraversal::stack;
   KdNodeBytes node_bytes = KdNodeBytes::b8;
