@@ -18,13 +18,25 @@ struct PlaneNodes {
   std::uint32_t below, above;
 };
 
+/// A tree whose inner nodes are planes through their cells, with a node on either side; depth
+/// first: what is below a plane follows it.
+template <class T>
+concept PlaneTree = WalkableTree<T> && requires(const T& tree, std::uint32_t node) {
+  { tree.plane(node) } -> std::same_as<PlaneNodes>;
+};
+
+/// When the ray may begin, and when it may cease, to touch a plane. A parameter below 0 may keep
+/// the wrong side of the margin: intervals begin at 0. NaN or infinite where the ray is parallel.
+inline Interval touch_plane(const PreparedRay& ray, int axis, double plane) {
+  return {ray.plane_first(axis, plane) * (1.0 - kPlaneMargin),
+          ray.plane_last(axis, plane) * (1.0 + kPlaneMargin)};
+}
+
 /// Writes the children to visit and returns their number. The near one is on the side the ray
 /// comes from. Comparisons hold for NaN.
 inline int cross_plane(const PreparedRay& ray, const PlaneNodes& at, const Interval& span,
                        NodeVisit* children) {
-  // Parameters below 0 may keep the wrong side of the margin: intervals begin at 0.
-  const double first = ray.plane_first(at.axis, at.plane) * (1.0 - kPlaneMargin);
-  const double last = ray.plane_last(at.axis, at.plane) * (1.0 + kPlaneMargin);
+  const auto [first, last] = touch_plane(ray, at.axis, at.plane);
   const bool from_above = ray.negative[at.axis];
   int count = 0;
   if (!(span.t_enter > last)) {

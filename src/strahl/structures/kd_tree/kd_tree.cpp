@@ -31,25 +31,53 @@ OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*) {
              "planes on a path that may cost more than a leaf of 16 primitives or more"),
       option("max_growth", &O::max_growth, 1.0, 1000000.0,
              "references per primitive at most; cells share what is left by their contents"),
+      option("traversal", &O::traversal,
+             {{"stack", KdTraversal::stack},
+              {"havran", KdTraversal::havran},
+              {"skip", KdTraversal::skip},
+              {"ropes", KdTraversal::ropes}},
+             "with a stack of intervals or of points; without one: by skip pointers, depth first, "
+             "or by ropes from cell to cell"),
+      option("node_bytes", &O::node_bytes,
+             {{"8", KdNodeBytes::b8},
+              {"16", KdNodeBytes::b16},
+              {"32", KdNodeBytes::b32},
+              {"64", KdNodeBytes::b64}},
+             "distance of nodes in memory; more than 8 is padding, to measure with"),
   };
 }
 
 KdTree::KdTree(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : cost_{options.traverse_cost, options.intersect_cost} {
+    : traversal_(options.traversal), cost_{options.traverse_cost, options.intersect_cost} {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   for (const PrimRef& ref : refs) root_box_.extend(ref.box);
   max_depth_ = kd_depth_limit(options.max_depth, kMaxDepth, refs.size());
-  tree_ = build_kd_tree(source, std::move(refs), root_box_, options, context);
-  report_ = report_kd_tree(tree_, root_box_, cost_);
+  KdArrays tree = build_kd_tree(source, std::move(refs), root_box_, options, context);
+  report_ = report_kd_tree(tree, root_box_, cost_);
+  take(std::move(tree), options, context);
+}
+
+/// Lays the tree out for its traversal.
+void KdTree::take(KdArrays tree, const Options& options, const BuildContext& context) {
+  references_ = std::move(tree.references);
+  const std::uint64_t others = references_.capacity() * sizeof(std::uint32_t);
+  nodes_ = KdNodes(std::move(tree.nodes), options.node_bytes, others, context);
+  const std::uint64_t owned = others + nodes_.bytes();
+  if (traversal_ == KdTraversal::skip) links_ = make_gates(nodes_, root_box_, owned, context);
+  if (traversal_ == KdTraversal::ropes) links_ = make_ropes(nodes_, root_box_, owned, context);
+  report_.bytes = owned + links_.bytes();
 }
 
 void KdTree::validate(const PrimitiveSource& source) const {
-  validate_kd_tree(tree_, {kName, root_box_, max_depth_, cost_, false, report_}, source);
+  validate_kd_tree({nodes_.packed(), references_},
+                   {kName, root_box_, max_depth_, cost_, false, report_}, source);
+  if (traversal_ == KdTraversal::skip) check_gates(links_, nodes_, root_box_);
+  if (traversal_ == KdTraversal::ropes) check_ropes(links_, nodes_, root_box_);
 }
 
 void KdTree::hash_into(Hash64& hash) const {
-  for (const KdNode& node : tree_.nodes) node.hash_into(hash);
-  hash.add(std::span<const std::uint32_t>(tree_.references));
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i].hash_into(hash);
+  hash.add(std::span<const std::uint32_t>(references_));
 }
 
 }  // namespace strahl

@@ -2,7 +2,8 @@
 // area heuristic.
 //
 // Source: [Kaplan1985], [MacDonaldBooth1990]; sweep and splicing after [WaldHavran2006].
-// Layout: 8-byte nodes, depth first (build/kd_node.h); cells are implicit.
+// Layout: 8-byte nodes, depth first (build/kd_node.h), or padded ones; cells are implicit. What
+//   traversals without a stack need besides: kd_links.h.
 // Invariants: every split plane lies strictly inside its cell, so cells tile the root box; every
 //   point of a primitive lies in some closed leaf cell that refers to the primitive.
 // Why no hit is lost: by the second invariant the point of a hit lies in a closed cell that refers
@@ -14,12 +15,14 @@
 #include <strahl/base/hash.h>
 #include <strahl/base/options.h>
 #include <strahl/build/kd_policy.h>
-#include <strahl/traverse/plane.h>
+#include <strahl/structures/kd_tree/kd_view.h>
+#include <strahl/traverse/havran.h>
 
 namespace strahl {
 
 enum class KdSplit { automatic, sah_sweep, sah_binned, middle, median };
 enum class KdAxis { longest, round_robin };
+enum class KdTraversal { stack, havran, skip, ropes };
 
 /// Defaults of the costs are measured, see README.md.
 struct KdTreeOptions {
@@ -34,6 +37,8 @@ struct KdTreeOptions {
   int max_depth = 0;
   int bad_splits = 2;
   double max_growth = 32.0;
+  KdTraversal traversal = KdTraversal::stack;
+  KdNodeBytes node_bytes = KdNodeBytes::b8;
 };
 
 OptionTable<KdTreeOptions> option_fields(const KdTreeOptions*);
@@ -46,28 +51,20 @@ class KdTree {
   static constexpr const char* kName = "kd_tree";
   static constexpr const char* kTitle = "space divided by axis-perpendicular planes";
   static constexpr bool kRefersOnce = false;
-  static constexpr int kMaxChildren = 2;
-  static constexpr int kMaxDepth = 64;
+  static constexpr int kMaxDepth = kMaxKdDepth;
 
   KdTree(const PrimitiveSource& source, const Options& options, const BuildContext& context);
 
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (!root_box_.is_empty()) walk(*this, prims, ray, query, counters);
-  }
-
-  NodeVisit enter(const PreparedRay& ray) const {
-    return {0, clip_to_box(ray, root_box_.lo, root_box_.hi, {ray.t_enter, ray.t_exit})};
-  }
-  bool is_leaf(std::uint32_t node) const { return tree_.nodes[node].is_leaf(); }
-  std::span<const std::uint32_t> references(std::uint32_t node) const {
-    return tree_.nodes[node].references(tree_.references);
-  }
-  template <class C>
-  int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* children, C&) const {
-    const KdNode& node = tree_.nodes[at.node];
-    return cross_plane(ray, {node.axis(), node.plane(), at.node + 1, node.right()}, at.span,
-                       children);
+    if (root_box_.is_empty()) return;
+    if (traversal_ != KdTraversal::stack) return trace_otherwise(prims, ray, query, counters);
+    switch (nodes_.distance()) {
+      case KdNodeBytes::b8: return walk(view<8>(), prims, ray, query, counters);
+      case KdNodeBytes::b16: return walk(view<16>(), prims, ray, query, counters);
+      case KdNodeBytes::b32: return walk(view<32>(), prims, ray, query, counters);
+      case KdNodeBytes::b64: return walk(view<64>(), prims, ray, query, counters);
+    }
   }
 
   const BuildReport& report() const { return report_; }
@@ -76,7 +73,23 @@ class KdTree {
   void hash_into(Hash64& hash) const;
 
  private:
-  KdArrays tree_;
+  template <std::size_t kNodeBytes>
+  KdView<kNodeBytes> view() const {
+    return {nodes_, references_, links_, root_box_};
+  }
+  /// Any distance of nodes: not worth a copy of these loops each.
+  template <class Prims, class Q, class C>
+  void trace_otherwise(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
+    if (traversal_ == KdTraversal::havran) walk_by_points(view<0>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::skip) walk_by_skips(view<0>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::ropes) walk_by_ropes(view<0>(), prims, ray, query, counters);
+  }
+  void take(KdArrays tree, const Options& options, const BuildContext& context);
+
+  KdNodes nodes_;
+  std::vector<std::uint32_t> references_;
+  KdLinks links_;
+  KdTraversal traversal_ = KdTraversal::stack;
   Aabb root_box_;
   SahCost cost_;
   int max_depth_ = 0;
