@@ -59,12 +59,10 @@ class KdTree {
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
     if (root_box_.is_empty()) return;
     if (traversal_ != KdTraversal::stack) return trace_otherwise(prims, ray, query, counters);
-    switch (nodes_.distance()) {
-      case KdNodeBytes::b8: return walk(view<8>(), prims, ray, query, counters);
-      case KdNodeBytes::b16: return walk(view<16>(), prims, ray, query, counters);
-      case KdNodeBytes::b32: return walk(view<32>(), prims, ray, query, counters);
-      case KdNodeBytes::b64: return walk(view<64>(), prims, ray, query, counters);
-    }
+    if (nodes_.distance() == KdNodeBytes::b8)
+      walk(view<false>(), prims, ray, query, counters);
+    else
+      walk(view<true>(), prims, ray, query, counters);
   }
 
   const BuildReport& report() const { return report_; }
@@ -73,16 +71,15 @@ class KdTree {
   void hash_into(Hash64& hash) const;
 
  private:
-  template <std::size_t kNodeBytes>
-  KdView<kNodeBytes> view() const {
+  template <bool kIsPadded>
+  KdView<kIsPadded> view() const {
     return {nodes_, references_, links_, root_box_};
   }
-  /// Any distance of nodes: not worth a copy of these loops each.
   template <class Prims, class Q, class C>
   void trace_otherwise(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (traversal_ == KdTraversal::havran) walk_by_points(view<0>(), prims, ray, query, counters);
-    if (traversal_ == KdTraversal::skip) walk_by_skips(view<0>(), prims, ray, query, counters);
-    if (traversal_ == KdTraversal::ropes) walk_by_ropes(view<0>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::havran) walk_by_points(view<true>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::skip) walk_by_skips(view<true>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::ropes) walk_by_ropes(view<true>(), prims, ray, query, counters);
   }
   void take(KdArrays tree, const Options& options, const BuildContext& context);
 

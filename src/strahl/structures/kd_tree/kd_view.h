@@ -9,8 +9,9 @@ namespace strahl {
 
 inline constexpr int kMaxKdDepth = 64;
 
-/// @tparam kNodeBytes distance of nodes; 0: as the nodes say
-template <std::size_t kNodeBytes>
+/// @tparam kIsPadded nodes are farther apart than they are long. Shifting an index costs no more
+///   when the distance is known only at run time: above 8 bytes addresses have no scale for it.
+template <bool kIsPadded>
 class KdView {
  public:
   static constexpr int kMaxChildren = 2;
@@ -19,7 +20,7 @@ class KdView {
   KdView(const KdNodes& nodes, const std::vector<std::uint32_t>& references, const KdLinks& links,
          const Aabb& box)
       : first_(nodes.data()),
-        distance_(static_cast<std::size_t>(nodes.distance())),
+        shift_(std::countr_zero(static_cast<unsigned>(nodes.distance()))),
         size_(static_cast<std::uint32_t>(nodes.size())),
         references_(references),
         links_(links),
@@ -38,7 +39,8 @@ class KdView {
     return {inner.axis(), inner.plane(), node + 1, inner.right()};
   }
   template <class C>
-  int expand(const PreparedRay& ray, const NodeVisit& visit, NodeVisit* children, C&) const {
+  [[gnu::always_inline]] int expand(const PreparedRay& ray, const NodeVisit& visit,
+                                    NodeVisit* children, C&) const {
     return cross_plane(ray, plane(visit.node), visit.span, children);
   }
   const Gate& gate(std::uint32_t number) const { return links_.gates[number]; }
@@ -46,12 +48,11 @@ class KdView {
 
  private:
   const KdNode& at(std::size_t node) const {
-    const std::size_t distance = kNodeBytes > 0 ? kNodeBytes : distance_;
-    return *reinterpret_cast<const KdNode*>(first_ + node * distance);
+    return *reinterpret_cast<const KdNode*>(first_ + (node << (kIsPadded ? shift_ : 3)));
   }
 
   const std::byte* first_;
-  std::size_t distance_;
+  int shift_;
   std::uint32_t size_;
   const std::vector<std::uint32_t>& references_;
   const KdLinks& links_;
