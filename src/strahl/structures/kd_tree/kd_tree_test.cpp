@@ -110,6 +110,9 @@ const char* const kSpecs[] = {
     "kd_tree:split=middle",
     "kd_tree:split=median,axis=round_robin,max_leaf=2",
     "kd_tree:split=sah_binned,clip=off,max_leaf=4,bad_splits=0",
+    "kd_tree:traversal=havran",
+    "kd_tree:traversal=skip,node_bytes=64",
+    "kd_tree:traversal=ropes",
 };
 
 void expect_all_like_brute_force(const ScenePtr& scene, std::uint64_t seed) {
