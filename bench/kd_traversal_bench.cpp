@@ -4,7 +4,8 @@
 // Closest hits: rays from a sphere around the scene to points in its box. Any hits: shadow rays from
 // the points hit to one of four lamps on the sphere, the primitive they start on excluded, split
 // into occluded and unoccluded ones. One thread; variants take turns, times are medians of processor
-// time, as others may use the machine; answers are compared bit by bit. Exit status: 1 when answers differ, 2 for a bad command line or scene.
+// time, as others may use the machine; answers are compared bit by bit. Exit status: 1 when answers
+// differ, 2 for a bad command line or scene.
 #include <algorithm>
 #include <array>
 #include <charconv>
