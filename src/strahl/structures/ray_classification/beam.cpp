@@ -42,6 +42,7 @@ Beam::Beam(const RayCell& cell, int face)
   for (std::size_t k = 0; k < 2; ++k) {
     const int across = k == 0 ? u : v;
     const double low = cell.lo[3 + k], high = cell.hi[3 + k];
+    breadth_ = std::max(breadth_, 2.0 * half_[across] + 0.5 * (high - low));
     if (low >= 0.0) add_side(axis_vector(across, -1.0));
     if (high <= 0.0) add_side(axis_vector(across, 1.0));
     add_side(axis_vector(across, -1.0) + axis_vector(axis, forward * low));

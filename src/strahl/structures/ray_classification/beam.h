@@ -33,6 +33,8 @@ class Beam {
  public:
   Beam(const RayCell& cell, int face);
 
+  /// About how wide the beam is in the middle of the scene, in local units.
+  double breadth() const { return breadth_; }
   /// Whether a ray of the cell may meet the box, in local units.
   bool may_meet(const Vec3d& lo, const Vec3d& hi) const;
   /// Whether one may meet the hull of these balls.
@@ -59,6 +61,7 @@ class Beam {
   std::size_t side_count_ = 0;
   std::array<Vec3d, 4> corner_;  ///< directions
   Vec3d center_, half_;          ///< of the origins
+  double breadth_ = 0.0;
 };
 
 }  // namespace strahl

@@ -12,6 +12,8 @@ namespace {
 
 /// A division must be worth it twenty times, so groups are filled.
 constexpr SahCost kGroupCost{1.0, 0.05};
+/// Groups smaller than this share of a beam are told by their boxes alone.
+constexpr double kSmall = 0.25;
 constexpr int kBins = 32, kMaxDepth = 64;
 constexpr std::uint32_t kReportEvery = 1u << 14;
 
@@ -89,15 +91,17 @@ void Candidates::sort_orders() {
 }
 
 bool Candidates::may_hit_primitive(std::size_t place, const Beam& beam, bool culls) const {
-  const std::span balls =
-      std::span(balls_).subspan(first_ball_[place], first_ball_[place + 1] - first_ball_[place]);
+  const std::span<const StoredBall> balls = balls_of(place);
   if (balls.empty()) return true;
   if (balls.size() != 3) return beam.may_meet_hull(balls);
   return (!culls || beam.may_see_front(balls)) && beam.may_meet_triangle(balls);
 }
 
 bool Candidates::may_hit(const CandidateGroup& group, const Beam& beam, bool culls) const {
-  if (!beam.may_meet(space_.local(group.box.lo), space_.local(group.box.hi))) return false;
+  const Vec3d lo = space_.local(group.box.lo), hi = space_.local(group.box.hi);
+  if (!beam.may_meet(lo, hi)) return false;
+  // A look at the primitives pays where they are not small beside the beam.
+  if (!culls && norm_max(hi - lo) < kSmall * beam.breadth()) return true;
   for (std::size_t place = group.first; place < group.first + std::size_t{group.count}; ++place)
     if (may_hit_primitive(place, beam, culls)) return true;
   return false;
@@ -107,6 +111,16 @@ void Candidates::filter(std::span<const std::uint32_t> list, const Beam& beam, b
                         std::vector<std::uint32_t>& out) const {
   for (const std::uint32_t i : list)
     if (may_hit(groups_[i], beam, culls)) out.push_back(i);
+}
+
+bool Candidates::holds_outline(std::size_t place, const PrimitiveSource& source) const {
+  const Outline outline = source.outline(references_[place]);
+  return std::ranges::equal(balls_of(place), outline.balls(),
+                            [&](const StoredBall& own, const Ball& ball) {
+                              const StoredBall other = stored(ball, space_);
+                              return own.x == other.x && own.y == other.y && own.z == other.z &&
+                                     own.radius == other.radius;
+                            });
 }
 
 std::uint64_t Candidates::bytes() const {
@@ -130,6 +144,7 @@ void Candidates::validate(const PrimitiveSource& source) const {
              "references of a group do not ascend");
       demand(group.box.contains(source.bounds(reference)), "a group does not hold a primitive");
       demand(space_.box().contains(group.box), "a group is outside of the scene's box");
+      demand(holds_outline(place, source), "an outline is not that of its primitive");
       ++seen[reference];
     }
   }

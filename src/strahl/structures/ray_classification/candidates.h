@@ -59,6 +59,11 @@ class Candidates {
   void take_groups(const struct Tree& tree);
   void store_outlines(const PrimitiveSource& source, const BuildContext& context);
   void sort_orders();
+  std::span<const StoredBall> balls_of(std::size_t place) const {
+    return std::span(balls_).subspan(first_ball_[place],
+                                     first_ball_[place + 1] - first_ball_[place]);
+  }
+  bool holds_outline(std::size_t place, const PrimitiveSource& source) const;
   bool comes_first(int face, std::uint32_t a, std::uint32_t b) const;
   bool may_hit_primitive(std::size_t place, const Beam& beam, bool culls) const;
 

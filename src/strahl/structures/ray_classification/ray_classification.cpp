@@ -61,6 +61,22 @@ RayClassification::Cell* RayClassification::add_child(Cell& parent, unsigned num
   return cells_->add(parent, number, list);
 }
 
+std::vector<std::uint32_t> RayClassification::candidates_of(const PreparedRay& ray,
+                                                            bool culls) const {
+  std::vector<std::uint32_t> all;
+  if (candidates_.empty()) return all;
+  const std::optional<RayPoint> point = candidates_.space().classify(ray);
+  if (!point) return all;
+  const Epochs::Reader reading = cells_->reader();
+  NoCounters counters;
+  for (const std::uint32_t i : find_list(*point, culls, counters)) {
+    const auto references = candidates_.references(candidates_.group(i));
+    all.insert(all.end(), references.begin(), references.end());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 void RayClassification::hash_into(Hash64& hash) const {
   candidates_.hash_into(hash);
   hash.add(max_candidates_), hash.add(max_depth_);

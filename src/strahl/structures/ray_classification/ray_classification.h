@@ -21,6 +21,7 @@
 
 #include <strahl/base/options.h>
 #include <strahl/build/build_report.h>
+#include <strahl/query/counters.h>
 #include <strahl/structures/ray_classification/candidates.h>
 #include <strahl/structures/ray_classification/cell_cache.h>
 #include <strahl/traverse/leaf.h>
@@ -29,10 +30,10 @@ namespace strahl {
 
 /// README.md says how the defaults were measured.
 struct RayClassificationOptions {
-  int max_candidates = 16;
+  int max_candidates = 256;
   double min_cell = 0.02;
   int group_size = 8;
-  int patience = 4;
+  int patience = 8;
   int bytes_per_primitive = 1024;
 };
 
@@ -58,6 +59,9 @@ class RayClassification {
     const Epochs::Reader reading = cells_->reader();
     test_list(find_list(*point, culls(query), counters), point->face, prims, ray, query, counters);
   }
+
+  /// The primitives in the list that serves the ray, ascending. Makes cells as trace() does.
+  std::vector<std::uint32_t> candidates_of(const PreparedRay& ray, bool culls) const;
 
   /// Of the cells at this moment: changes while rays are traced.
   BuildReport report() const;
