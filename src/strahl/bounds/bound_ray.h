@@ -14,6 +14,7 @@ namespace strahl {
 struct BoundRay {
   Vec3d org, dir;
   Vec3d unit_dir;         ///< dir * inv_length
+  double length;          ///< |dir|
   double inv_length;      ///< 1 / |dir|
   double inv_squared;     ///< 1 / dir.dir
   double slack;           ///< s per unit of |n|_1
@@ -23,7 +24,7 @@ struct BoundRay {
   /// @param world encloses all that any of the volumes encloses
   BoundRay(const PreparedRay& ray, const Aabb& world) : org(ray.org), dir(ray.dir) {
     const double squared = dot(dir, dir);
-    inv_squared = 1.0 / squared, inv_length = 1.0 / std::sqrt(squared);
+    inv_squared = 1.0 / squared, length = std::sqrt(squared), inv_length = 1.0 / length;
     unit_dir = dir * inv_length;
     const double widening =
         std::max(norm_max(ray.near_org - ray.org), norm_max(ray.far_org - ray.org));

@@ -57,13 +57,10 @@ std::vector<Vec3d> deepest_cuts(const FitCloud& cloud, const std::vector<Vec3d>&
   Polytope body({{x.first, y.first, z.first}, {x.second, y.second, z.second}});
   std::vector<Vec3d> kept;
   while (kept.size() < most) {
-    EnclosedSet corners;
-    body.add_corners_to(corners);
     double deepest = kNotWorthCutting;
     std::size_t best = candidates.size();
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      double reach = -Aabb::kInf;
-      for (const Vec3d& p : corners.points()) reach = std::max(reach, dot(candidates[i], p));
+      const double reach = body.support(candidates[i]);
       if (reach - offset[i] > deepest) deepest = reach - offset[i], best = i;
     }
     if (best == candidates.size()) break;
@@ -107,7 +104,7 @@ void HullVolume::add_corners_to(EnclosedSet& set) const {
   const Aabb b = box();
   if (b.is_empty()) return;
   if (!is_finite(b.lo) || !is_finite(b.hi)) return set.add(b);
-  Polytope body(b);
+  Polytope body(b, Polytope::Use::corners);
   add_planes_to(body);
   body.add_corners_to(set);
 }

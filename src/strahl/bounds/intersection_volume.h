@@ -80,7 +80,7 @@ class Intersection {
   }
   Aabb common_box() const;
   Polytope::Measure measure() const;
-  Polytope common_body(const Aabb& box) const;
+  Polytope common_body(const Aabb& box, Polytope::Use use) const;
   std::tuple<V...> part_;
 };
 
@@ -92,8 +92,8 @@ Aabb Intersection<V...>::common_box() const {
 }
 
 template <BoundingVolume... V>
-Polytope Intersection<V...>::common_body(const Aabb& box) const {
-  Polytope body(box);
+Polytope Intersection<V...>::common_body(const Aabb& box, Polytope::Use use) const {
+  Polytope body(box, use);
   (std::get<V>(part_).add_planes_to(body), ...);
   return body;
 }
@@ -101,7 +101,7 @@ Polytope Intersection<V...>::common_body(const Aabb& box) const {
 template <BoundingVolume... V>
 Polytope::Measure Intersection<V...>::measure() const {
   const Aabb box = common_box();
-  return box.is_empty() ? Polytope::Measure{} : common_body(box).measure();
+  return box.is_empty() ? Polytope::Measure{} : common_body(box, Polytope::Use::measure).measure();
 }
 
 template <BoundingVolume... V>
@@ -110,7 +110,7 @@ void Intersection<V...>::add_corners_to(EnclosedSet& set) const {
     const Aabb box = common_box();
     if (box.is_empty()) return;
     if (!is_finite(box.lo) || !is_finite(box.hi)) return set.add(box);
-    common_body(box).add_corners_to(set);
+    common_body(box, Polytope::Use::corners).add_corners_to(set);
   } else {
     std::get<0>(part_).add_corners_to(set);
   }

@@ -64,7 +64,7 @@ void KdopVolume<K>::add_corners_to(EnclosedSet& set) const {
   const Aabb b = box();
   if (b.is_empty()) return;
   if (!is_finite(b.lo) || !is_finite(b.hi)) return set.add(b);
-  Polytope body(b);
+  Polytope body(b, Polytope::Use::corners);
   add_planes_to(body);
   body.add_corners_to(set);
 }

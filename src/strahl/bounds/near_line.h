@@ -5,7 +5,7 @@
 //   c - e + v d/|d|. e is off by less than 6 u |l|_1 and d.e by 6 u |d| |l|_1; |l| <= 2 sqrt(3) M
 //   + r. So |x - c| <= r implies |e|^2 + v^2 <= r^2 + 24 u |l| r, hence v^2 <= (r + S)^2 - |e|^2
 //   for S = distance_slack + 2^-46 r, with 2 r S to spare for the roundings of that expression.
-//   t0 + v / |d| rounds by u (|l| + r) / |d|, so both ends move out by S / |d|.
+//   t0 + v / |d| rounds by u (|l| + r) / |d|, so both ends move out by S / |d|; likewise back.
 // Thread safety: pure functions.
 #pragma once
 
@@ -31,6 +31,14 @@ struct NearLine {
   double squared_half_chord(double radius) const {
     const double r = radius + slack;
     return r * r - dot(offset, offset);
+  }
+  /// The arc lengths `v` cut to parameters `in`, which lose S at both ends. NaN cuts nothing.
+  Interval part_of(const BoundRay& ray, const Interval& in, Interval v) const {
+    const double first = (in.t_enter - t) * ray.length - slack;
+    const double last = (in.t_exit - t) * ray.length + slack;
+    v.t_enter = first > v.t_enter ? first : v.t_enter;
+    v.t_exit = last < v.t_exit ? last : v.t_exit;
+    return v;
   }
   /// `in` cut to arc lengths [first, last] around the nearest point. NaN cuts nothing.
   Interval cut(const BoundRay& ray, double first, double last, Interval in) const {

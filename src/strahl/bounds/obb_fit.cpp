@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <strahl/bounds/convex_hull.h>
 #include <strahl/bounds/obb_fit.h>
@@ -8,6 +9,7 @@ namespace strahl {
 namespace {
 
 constexpr std::size_t kMostFaces = 200;
+constexpr std::size_t kStarts = 8;  // of small turns, from the best axes
 
 /// A box across `axes[2]` and its cost.
 struct Candidate {
@@ -110,14 +112,16 @@ ObbAxes search_axes(const FitCloud& cloud, ObbGoal goal, FitEffort effort) {
   std::vector<Vec3d> candidates = axis_candidates(cloud, effort);
   if (effort == FitEffort::thorough)
     for (const Vec3d& n : face_normals(cloud, kMostFaces)) candidates.push_back(n);
-  for (const Vec3d& axis : candidates) search(axis);
+  std::vector<std::pair<double, Vec3d>> tried;
+  for (const Vec3d& axis : candidates) tried.push_back({search(axis), axis});
+  const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::stable_sort(tried.begin(), tried.end(), cheaper);
+  const std::size_t starts = effort == FitEffort::fast ? 0 : std::min(kStarts, tried.size());
+  for (std::size_t i = 0; i < starts; ++i) best_axis({{tried[i].second}}, effort, search);
   for (double before = Aabb::kInf; search.best().cost < before * (1.0 - 1e-9);) {
     before = search.best().cost;
-    for (const Vec3d& axis : ObbAxes(search.best().axes)) search(axis);
-    if (effort == FitEffort::fast) break;
-  }
-  if (effort == FitEffort::thorough) {
     for (const Vec3d& axis : ObbAxes(search.best().axes)) best_axis({{axis}}, effort, search);
+    if (effort == FitEffort::fast) break;
   }
   return search.best().axes;
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <strahl/bounds/bound_margin.h>
@@ -7,17 +8,25 @@
 namespace strahl {
 namespace {
 
-/// The part of a polygon where n.x <= offset.
-std::vector<Vec3d> cut(const std::vector<Vec3d>& polygon, const HalfSpace& h) {
-  std::vector<Vec3d> kept;
+/// Opposite planes of a flat body touch up to rounding, relative to the size.
+constexpr double kTouching = 1e-13;
+/// Planes closer than this are one.
+constexpr double kSame = 1e-12;
+
+/// Leaves the part of a polygon where n.x <= offset.
+void cut(std::vector<Vec3d>& polygon, const Vec3d& n, double offset, std::vector<Vec3d>& spare) {
+  spare.clear();
+  double before = polygon.empty() ? 0.0 : dot(n, polygon.back()) - offset;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec3d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double da = dot(h.n, a) - h.offset, db = dot(h.n, b) - h.offset;
-    if (da <= 0.0) kept.push_back(a);
-    if ((da < 0.0 && db > 0.0) || (da > 0.0 && db < 0.0))
-      kept.push_back(a + (da / (da - db)) * (b - a));
+    const double here = dot(n, polygon[i]) - offset;
+    if ((before < 0.0 && here > 0.0) || (before > 0.0 && here < 0.0)) {
+      const Vec3d& a = polygon[i == 0 ? polygon.size() - 1 : i - 1];
+      spare.push_back(a + (before / (before - here)) * (polygon[i] - a));
+    }
+    if (here <= 0.0) spare.push_back(polygon[i]);
+    before = here;
   }
-  return kept;
+  polygon.swap(spare);
 }
 
 Vec3d area_vector(const std::vector<Vec3d>& polygon) {
@@ -29,7 +38,11 @@ Vec3d area_vector(const std::vector<Vec3d>& polygon) {
 
 }  // namespace
 
-Polytope::Polytope(const Aabb& box) : center_(box.center()), size_(norm_max(box.extent())) {
+Polytope::Polytope(const Aabb& box, Use use)
+    : center_(box.center()), size_(norm_max(box.extent())) {
+  margin_ = use == Use::corners
+                ? kCornerMargin * size_ + kSupportMargin * (norm_max(center_) + size_)
+                : 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     Vec3d n;
     n[axis] = 1.0;
@@ -39,46 +52,43 @@ Polytope::Polytope(const Aabb& box) : center_(box.center()), size_(norm_max(box.
 
 void Polytope::add(const Vec3d& n, double offset) {
   const double norm = length(n);
-  planes_.push_back({n / norm, (offset - dot(n, center_)) / norm});
-}
-
-std::vector<Vec3d> Polytope::face(std::size_t i, double margin) const {
-  const HalfSpace& own = planes_[i];
-  const Basis basis(own.n);
-  const Vec3d middle = (own.offset + margin) * own.n;
-  const double reach = 4.0 * size_ + std::abs(own.offset);
-  std::vector<Vec3d> polygon{
-      middle - reach * basis.u - reach * basis.v, middle + reach * basis.u - reach * basis.v,
-      middle + reach * basis.u + reach * basis.v, middle - reach * basis.u + reach * basis.v};
-  for (std::size_t j = 0; j < planes_.size() && !polygon.empty(); ++j) {
-    if (j == i) continue;
-    const HalfSpace& other = planes_[j];
-    // Two planes as good as one make one face, that of the first.
-    const bool is_same = dot(own.n, other.n) > 0.0 && norm_max(own.n - other.n) < 1e-12;
-    if (is_same && std::abs(own.offset - other.offset) < 1e-12 * size_) {
-      if (j < i) return {};
-      continue;
-    }
-    // Opposite planes of a flat body touch up to rounding.
-    polygon = cut(polygon, {other.n, other.offset + margin + 1e-13 * size_});
+  Face face{n / norm, (offset - dot(n, center_)) / norm + margin_, {}};
+  for (const Face& other : faces_)
+    if (std::abs(face.offset - other.offset) < kSame * size_ && norm_max(face.n - other.n) < kSame)
+      return;
+  const Basis basis(face.n);
+  const Vec3d middle = face.offset * face.n;
+  const Vec3d u = (4.0 * size_ + std::abs(face.offset)) * basis.u,
+              v = (4.0 * size_ + std::abs(face.offset)) * basis.v;
+  face.polygon = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+  const double touching = kTouching * size_;
+  for (Face& other : faces_) {
+    cut(face.polygon, other.n, other.offset + touching, spare_);
+    cut(other.polygon, face.n, face.offset + touching, spare_);
   }
-  return polygon;
+  faces_.push_back(std::move(face));
 }
 
 Polytope::Measure Polytope::measure() const {
   Measure sum;
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const double area = length(area_vector(face(i, 0.0)));
+  for (const Face& face : faces_) {
+    const double area = length(area_vector(face.polygon));
     sum.half_area += 0.5 * area;
-    sum.volume += planes_[i].offset * area / 3.0;
+    sum.volume += face.offset * area / 3.0;
   }
   return sum;
 }
 
 void Polytope::add_corners_to(EnclosedSet& set) const {
-  const double margin = kCornerMargin * size_ + kSupportMargin * norm_max(center_);
-  for (std::size_t i = 0; i < planes_.size(); ++i)
-    for (const Vec3d& p : face(i, margin)) set.add_corner(p + center_);
+  for (const Face& face : faces_)
+    for (const Vec3d& p : face.polygon) set.add_corner(p + center_);
+}
+
+double Polytope::support(const Vec3d& n) const {
+  double most = -Aabb::kInf;
+  for (const Face& face : faces_)
+    for (const Vec3d& p : face.polygon) most = std::max(most, dot(n, p));
+  return most + dot(n, center_);
 }
 
 }  // namespace strahl

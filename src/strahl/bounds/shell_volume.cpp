@@ -149,6 +149,7 @@ Interval ShellVolume::clip(const BoundRay& ray, Interval in) const {
   const double half = std::sqrt(squared) + near.slack;
   Interval v{-half, half};
   if (!is_whole()) v = clip_to_sector(ray, near, v);
+  v = near.part_of(ray, in, v);
   const double inner = inner_ - near.slack;
   const double hole = std::sqrt(inner * inner - dot(near.offset, near.offset)) - near.slack;
   if (inner > 0.0 && hole > 0.0) {
