@@ -33,7 +33,9 @@ std::size_t filters_of(const KdArrays& tree) {
 }
 
 KdArrays nodes_of(const ScenePtr& scene, const TernaryTreeOptions& options) {
-  return build_ternary_tree(*scene, make_prim_refs(*scene, {}), scene->total_bounds(), options, {});
+  BuildReport report;
+  return build_ternary_tree(*scene, make_prim_refs(*scene, {}), scene->total_bounds(), options, {},
+                            report);
 }
 
 TEST(Oversize, RulesLookAtSidesAtAreaAndAtTheMedian) {
