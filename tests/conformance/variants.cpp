@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <set>
-#include <sstream>
 #include <tests/conformance/variants.h>
 
 namespace strahl::test {
@@ -19,12 +19,9 @@ double number(const std::string& text) {
 double between(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * b) : (a + b) / 2; }
 
 std::string as_value(const OptionInfo& info, double value) {
-  std::ostringstream text;
-  if (info.type == "double")
-    text << value;
-  else
-    text << static_cast<long long>(std::floor(value));
-  return text.str();
+  if (info.type != "double") return std::to_string(static_cast<long long>(std::floor(value)));
+  std::array<char, 32> text;  // all digits: a rounded minimum may be below it
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
 /// An option and the values to try, the default first.
