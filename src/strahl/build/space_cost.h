@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <strahl/base/executor.h>
 #include <strahl/build/fragment.h>
@@ -64,8 +65,8 @@ class PlaneCost {
   /// Cost of the plane where its sides cost `left` and `right` per line that crosses them.
   double of_sides(const SplitPlane& plane, double left, double right) const {
     const Shares shares = shares_at(plane.axis, static_cast<double>(plane.position));
-    return sah_with_empty_bonus(cost_.traverse + shares.left * left + shares.right * right,
-                                empty_bonus_, plane.left_count, plane.right_count);
+    return sah_with_empty_bonus(of_parts(shares, left, right), empty_bonus_, plane.left_count,
+                                plane.right_count);
   }
   /// Probability that a line in the cell crosses a plane perpendicular to the axis.
   double crossing(std::size_t axis) const { return crossing_[axis]; }
@@ -81,9 +82,16 @@ class PlaneCost {
     const double least = crossing_[axis], growth = growth_[axis];
     return {least + (position - cell_.lo[a]) * growth, least + (cell_.hi[a] - position) * growth};
   }
+  double of_parts(const Shares& shares, double left, double right) const {
+    return cost_.traverse + shares.left * left + shares.right * right;
+  }
   double of_counts(const Shares& shares, std::size_t left, std::size_t right) const {
-    return sah_with_empty_bonus(sah_split_cost(cost_, shares.left, left, shares.right, right),
-                                empty_bonus_, left, right);
+    // Signed numbers become doubles in one instruction.
+    const auto tests = [this](std::size_t count) {
+      return cost_.intersect * static_cast<double>(static_cast<std::int64_t>(count));
+    };
+    return sah_with_empty_bonus(of_parts(shares, tests(left), tests(right)), empty_bonus_, left,
+                                right);
   }
 
   Aabb cell_;

@@ -5,10 +5,11 @@
 namespace strahl {
 namespace {
 
-/// Appends the events of fragments [first, size) and sorts them among themselves.
-void append_events(std::span<const Fragment> fragments, std::size_t first, std::size_t axis,
-                   std::vector<SweepEvent>& events) {
-  const auto old = static_cast<std::ptrdiff_t>(events.size());
+/// The sorted events of fragments [first, size).
+std::vector<SweepEvent> sorted_events(std::span<const Fragment> fragments, std::size_t first,
+                                      std::size_t axis) {
+  std::vector<SweepEvent> events;
+  events.reserve(2 * (fragments.size() - first));
   for (std::size_t i = first; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
     const auto index = static_cast<std::uint32_t>(i);
@@ -19,22 +20,37 @@ void append_events(std::span<const Fragment> fragments, std::size_t first, std::
       events.emplace_back(f.hi[axis], index, SweepEvent::end);
     }
   }
-  std::sort(events.begin() + old, events.end());
+  std::sort(events.begin(), events.end());
+  return events;
+}
+
+/// Merges sorted events into the sorted first `count` of a list, from behind and within it: its
+/// size is that of both together.
+void merge_into(std::vector<SweepEvent>& list, std::size_t count,
+                const std::vector<SweepEvent>& more) {
+  std::size_t left = more.size();
+  while (left > 0) {
+    const bool is_old = count > 0 && more[left - 1] < list[count - 1];
+    const std::size_t to = count + left - 1;
+    list[to] = is_old ? list[--count] : more[--left];
+  }
 }
 
 std::vector<SweepEvent> divide_list(const std::vector<SweepEvent>& events, const FragmentHalf& half,
                                     std::size_t axis) {
-  std::vector<SweepEvent> kept;
-  kept.reserve(2 * half.fragments.size());
+  const std::vector<SweepEvent> more = sorted_events(half.fragments, half.kept, axis);
+  // No branch per event: which ones stay follows no order that a processor could predict. One
+  // element more than stay is written to.
+  std::vector<SweepEvent> kept(2 * half.kept + more.size() + 1, {0.0f, 0, SweepEvent::end});
+  std::size_t count = 0;
   for (SweepEvent event : events) {
     const std::uint32_t place = half.place[event.fragment()];
-    if (place == FragmentHalf::kNowhere) continue;
     event.renumber(place);
-    kept.push_back(event);
+    kept[count] = event;
+    count += place != FragmentHalf::kNowhere;
   }
-  const auto middle = static_cast<std::ptrdiff_t>(kept.size());
-  append_events(half.fragments, half.kept, axis, kept);
-  std::inplace_merge(kept.begin(), kept.begin() + middle, kept.end());
+  kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(count + more.size()), kept.end());
+  merge_into(kept, count, more);
   return kept;
 }
 
@@ -51,10 +67,8 @@ SplitPlane best_end(std::span<const SweepEvent> events, std::size_t fragments,
 
 SweepLists make_sweep_lists(std::span<const Fragment> fragments, const Executor& executor) {
   SweepLists lists;
-  for_each_axis(executor, fragments.size(), [&](std::size_t axis) {
-    lists[axis].reserve(2 * fragments.size());
-    append_events(fragments, 0, axis, lists[axis]);
-  });
+  for_each_axis(executor, fragments.size(),
+                [&](std::size_t axis) { lists[axis] = sorted_events(fragments, 0, axis); });
   return lists;
 }
 

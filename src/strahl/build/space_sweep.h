@@ -59,12 +59,16 @@ void for_each_sweep_plane(std::span<const SweepEvent> events, std::size_t fragme
   PlaneCounts counts{0, 0, fragments};
   for (std::size_t i = 0; i < events.size();) {
     const float position = events[i].position;
-    std::array<std::size_t, 3> met{};
-    for (; i < events.size() && events[i].position == position; ++i) ++met[events[i].kind()];
-    counts.planar = met[SweepEvent::planar];
-    counts.right -= met[SweepEvent::end] + counts.planar;
+    const std::size_t first = i;
+    std::size_t ends = 0, starts = 0;
+    for (; i < events.size() && events[i].position == position; ++i) {
+      ends += events[i].kind() == SweepEvent::end;
+      starts += events[i].kind() == SweepEvent::start;
+    }
+    counts.planar = i - first - ends - starts;
+    counts.right -= ends + counts.planar;
     visit(position, counts);
-    counts.left += met[SweepEvent::start] + counts.planar;
+    counts.left += starts + counts.planar;
   }
 }
 
