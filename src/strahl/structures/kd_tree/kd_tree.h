@@ -33,7 +33,7 @@ struct KdTreeOptions {
   double traverse_cost = 1.0;
   double intersect_cost = 0.7;
   double empty_bonus = 0.1;
-  double empty_cut = 0.0;
+  double empty_cut = 0.3;
   bool walls = false;
   int look_ahead = 0;
   int max_leaf = 1;
