@@ -1,7 +1,8 @@
 // kd_build_bench - how the three exact builders of kd_tree grow with the scene, and one million
 // triangles beside the sweep build of bvh. Processor seconds of one thread, least of the runs.
 //
-//   kd_build_bench [--quick] [--runs N]    quick: smaller scenes; N: default 5
+//   kd_build_bench [--growth] [--million] [--largest P] [--runs N]
+// One part only, scenes of 2^P triangles at most (default 21), N runs of scenes up to 2^17 (5).
 //
 // Exit status: 1 when two builders make different trees, 2 for a bad command line.
 #include <algorithm>
@@ -24,9 +25,12 @@ namespace {
 using namespace strahl;
 using ScenePtr = std::shared_ptr<const Scene>;
 
+constexpr int kLargestNaive = 14;
+
 struct Limits {
-  int naive = 14, sorted = 21;  ///< powers of two: triangles of the largest scenes
+  int largest = 21;  ///< power of two: triangles
   int runs = 5;
+  bool growth = true, million = true;
 };
 
 ScenePtr scene_of(std::vector<Vec3d> vertices, std::vector<std::uint32_t> indices) {
@@ -109,9 +113,9 @@ bool print_growth(const Limits& limits) {
   std::vector<std::vector<std::pair<double, double>>> points(3);
   bool agree = true;
   std::printf("%10s %12s %12s %12s\n", "triangles", "sah_sweep", "sah_sort", "sah_naive");
-  for (int power = 10; power <= limits.sorted; ++power) {
+  for (int power = 10; power <= limits.largest; ++power) {
     const auto specs_here =
-        power <= limits.naive ? specs : std::vector<std::string>{specs.begin(), specs.begin() + 2};
+        power <= kLargestNaive ? specs : std::vector<std::string>{specs.begin(), specs.begin() + 2};
     const bool is_long = power > 17;
     const auto built = build_all(surface(power), specs_here, is_long ? 1 : limits.runs);
     const double size = std::ldexp(1.0, power);
@@ -131,13 +135,11 @@ bool print_growth(const Limits& limits) {
 }
 
 void print_beside_bvh(const Limits& limits) {
-  const int power = std::min(limits.sorted, 20);
-  const auto closed = std::make_shared<const Scene>(
-      load_scene_data(power == 20 ? "gen:icosphere:8" : "gen:icosphere:6"));
+  const auto closed = std::make_shared<const Scene>(load_scene_data("gen:icosphere:8"));
   std::printf("\n%-10s %10s %12s %14s %7s %12s\n", "scene", "triangles", "kd_tree s", "bvh sweep s",
               "ratio", "references");
   const std::pair<const char*, ScenePtr> scenes[] = {
-      {"surface", surface(power)}, {"icosphere", closed}, {"cloud", cloud(power)}};
+      {"surface", surface(20)}, {"icosphere", closed}, {"cloud", cloud(20)}};
   for (const auto& [name, scene] : scenes) {
     const auto built = build_all(scene, {"kd_tree", "bvh:builder=sah_sweep"}, limits.runs);
     std::printf("%-10s %10u %12.3f %14.3f %7.2f %12llu\n", name, scene->size(), built[0].seconds,
@@ -149,17 +151,21 @@ void print_beside_bvh(const Limits& limits) {
 
 bool parse(int argc, char** argv, Limits& limits) {
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--quick") == 0) {
-      limits.naive = 12, limits.sorted = 16;
-    } else if (std::strcmp(argv[i], "--runs") == 0 && i + 1 < argc) {
-      const char* text = argv[++i];
+    const std::string argument = argv[i];
+    const auto number = [&](int& value) {
+      const char* text = ++i < argc ? argv[i] : "";
       const char* end = text + std::strlen(text);
-      if (std::from_chars(text, end, limits.runs).ptr != end || limits.runs < 1) return false;
-    } else {
+      return std::from_chars(text, end, value).ptr == end && value >= 1;
+    };
+    if (argument == "--growth")
+      limits.million = false;
+    else if (argument == "--million")
+      limits.growth = false;
+    else if (argument == "--largest" ? !number(limits.largest)
+                                     : argument != "--runs" || !number(limits.runs))
       return false;
-    }
   }
-  return true;
+  return limits.growth || limits.million;
 }
 
 }  // namespace
@@ -167,10 +173,10 @@ bool parse(int argc, char** argv, Limits& limits) {
 int main(int argc, char** argv) {
   Limits limits;
   if (!parse(argc, argv, limits)) {
-    std::fprintf(stderr, "usage: kd_build_bench [--quick] [--runs N]\n");
+    std::fprintf(stderr, "usage: kd_build_bench [--growth] [--million] [--largest P] [--runs N]\n");
     return 2;
   }
-  const bool agree = print_growth(limits);
-  print_beside_bvh(limits);
+  const bool agree = !limits.growth || print_growth(limits);
+  if (limits.million) print_beside_bvh(limits);
   return agree ? 0 : 1;
 }
