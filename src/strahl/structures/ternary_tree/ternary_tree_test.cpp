@@ -98,7 +98,7 @@ TEST(TernaryTree, AnswersLikeBruteForceInAnyOrderWithListsAndTrees) {
 TEST(TernaryTree, IsAKdTreeWhereNothingIsOversized) {
   const ScenePtr scene = soup(500, 0.01, 2).scene();
   EXPECT_EQ(build(scene, "ternary_tree:rule=median,median_factor=1000000")->tree_hash(),
-            build(scene, "kd_tree:retract=off")->tree_hash());
+            build(scene, "kd_tree:retract=off,empty_cut=0")->tree_hash());
 }
 
 TEST(TernaryTree, DividesTheRestAsIfTheOversizedWereNotThere) {
