@@ -2,7 +2,9 @@
 // triangles beside the sweep build of bvh. Processor seconds of one thread, least of the runs.
 //
 //   kd_build_bench [--growth] [--million] [--largest P] [--runs N]
+//   kd_build_bench --rules SCENE [SPEC...]
 // One part only, scenes of 2^P triangles at most (default 21), N runs of scenes up to 2^17 (5).
+// Or the expected cost, size, and steps and tests per random line of trees by other rules.
 //
 // Exit status: 1 when two builders make different trees, 2 for a bad command line.
 #include <algorithm>
@@ -149,6 +151,51 @@ void print_beside_bvh(const Limits& limits) {
   }
 }
 
+Vec3d random_direction(Rng& rng) {
+  for (;;) {
+    const double x = rng.uniform(-1, 1), y = rng.uniform(-1, 1), z = rng.uniform(-1, 1);
+    const Vec3d v{x, y, z};
+    if (dot(v, v) <= 1 && dot(v, v) > 1e-6) return (1 / std::sqrt(dot(v, v))) * v;
+  }
+}
+
+/// Rays from outside the sphere about the box, through it.
+std::vector<Ray> random_lines(const Aabb& box) {
+  constexpr std::size_t kLines = 20000;
+  Rng rng(7);
+  const Vec3d center = box.center();
+  const double radius = 0.5 * std::sqrt(dot(box.extent(), box.extent()));
+  std::vector<Ray> rays;
+  while (rays.size() < kLines) {
+    const Vec3d dir = random_direction(rng), side = random_direction(rng);
+    const Vec3d at = radius * std::sqrt(rng.uniform()) * side;
+    rays.push_back({center + at - dot(at, dir) * dir - 2.0 * radius * dir, dir});
+  }
+  return rays;
+}
+
+void print_rules(const std::string& name, std::vector<std::string> specs) {
+  const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+  const std::vector<Ray> rays = random_lines(scene->total_bounds());
+  const auto lines = static_cast<double>(rays.size());
+  specs.insert(specs.begin(), "kd_tree");
+  std::printf("%-40s %9s %9s %10s %10s %10s %12s\n", "tree", "SAH", "nodes", "references",
+              "steps/line", "tests/line", "binning loss");
+  for (const std::string& spec : specs) {
+    const auto tree = build(scene, spec);
+    const BuildReport& report = tree->report();
+    std::vector<Hit> hits(rays.size());
+    BatchContext counted;
+    counted.count_work = true;
+    const Counters work = tree->closest_hit(make_batch(rays), hits, counted).counters;
+    std::printf("%-40s %9.2f %9llu %10llu %10.2f %10.2f %12.3f\n", spec.c_str(), report.sah_cost,
+                static_cast<unsigned long long>(report.nodes),
+                static_cast<unsigned long long>(report.references),
+                static_cast<double>(work.traversal_steps) / lines,
+                static_cast<double>(work.primitives) / lines, report.binning_loss);
+  }
+}
+
 bool parse(int argc, char** argv, Limits& limits) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -171,6 +218,10 @@ bool parse(int argc, char** argv, Limits& limits) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 2 && std::strcmp(argv[1], "--rules") == 0) {
+    print_rules(argv[2], {argv + 3, argv + argc});
+    return 0;
+  }
   Limits limits;
   if (!parse(argc, argv, limits)) {
     std::fprintf(stderr, "usage: kd_build_bench [--growth] [--million] [--largest P] [--runs N]\n");
