@@ -1,11 +1,11 @@
 // kd_traversal_bench - the traversals of kd_tree and its padded nodes on the same rays, as tables:
 //   kd_traversal_bench SCENE... [--rays N] [--repeats N]
 //
-// Closest hits: rays from a sphere around the scene to points in its box. Any hits: shadow rays from
-// the points hit to one of four lamps on the sphere, the primitive they start on excluded, split
-// into occluded and unoccluded ones. One thread; variants take turns, times are medians of processor
-// time, as others may use the machine; answers are compared bit by bit. Exit status: 1 when answers
-// differ, 2 for a bad command line or scene.
+// Closest hits: rays from a sphere around the scene to points in its box. Any hits: shadow rays
+// from the points hit to one of four lamps on the sphere, the primitive they start on excluded,
+// split into occluded and unoccluded ones. One thread; variants take turns, times are medians of
+// processor time, as others may use the machine; answers are compared bit by bit. Exit status: 1
+// when answers differ, 2 for a bad command line or scene.
 #include <algorithm>
 #include <array>
 #include <charconv>

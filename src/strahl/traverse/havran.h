@@ -97,8 +97,7 @@ void push_crossing(const PreparedRay& ray, const MirroredRay& mirror, const Plan
   last = last < t_exit ? last : t_exit;
   last = last > enter.t ? last : enter.t;
   ahead.push(ray.negative[at.axis] ? at.below : at.above, mirror.point(first, at.axis, plane));
-  if (last != first)
-    ahead.push(Crossings<kMaxDepth>::kNoNode, mirror.point(last, at.axis, plane));
+  if (last != first) ahead.push(Crossings<kMaxDepth>::kNoNode, mirror.point(last, at.axis, plane));
 }
 
 /// Offers to the query every hit of the ray that it may want. Tree must not be empty.

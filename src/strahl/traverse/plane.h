@@ -35,8 +35,8 @@ inline Interval touch_plane(const PreparedRay& ray, int axis, double plane) {
 /// Writes the children to visit and returns their number. The near one is on the side the ray
 /// comes from. Comparisons hold for NaN. A call per step would cost a fifth of all instructions,
 /// and where many loops are instantiated g++ makes it one.
-[[gnu::always_inline]] inline int cross_plane(const PreparedRay& ray, const PlaneNodes& at, const Interval& span,
-                       NodeVisit* children) {
+[[gnu::always_inline]] inline int cross_plane(const PreparedRay& ray, const PlaneNodes& at,
+                                              const Interval& span, NodeVisit* children) {
   const auto [first, last] = touch_plane(ray, at.axis, at.plane);
   const bool from_above = ray.negative[at.axis];
   int count = 0;

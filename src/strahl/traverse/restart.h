@@ -12,7 +12,7 @@
 
 namespace strahl {
 
-/// Offers to the query every hit in leaves that the ray meets during `span`. True when the query
+/// Offers to the query every hit in leaves that the ray meets while it is at `root`. True when it
 /// stops the traversal.
 template <WalkableTree Tree, class Prims, class Q, class C>
 bool restart(const Tree& tree, const NodeVisit& root, Prims& prims, const PreparedRay& ray,

@@ -1,7 +1,8 @@
 // traverse/ropes.h - from leaf to leaf of a tree of planes by links through the faces of cells,
 // without a stack.
 //
-// Source: [MacDonaldBooth1990], ropes pushed down after [HavranBittnerZara1998]; one chain of leaves
+// Source: [MacDonaldBooth1990], ropes pushed down after [HavranBittnerZara1998]; one chain of
+// leaves
 //   per ray as in [Popov2007].
 // Layout: a leaf knows its cell and, per face, the smallest node on the other side of the whole
 //   face; from there the ray is followed down to one leaf.
@@ -77,8 +78,7 @@ inline RopeStep leave_cell(const PreparedRay& ray, const RopedCell& cell) {
   if (step.at.node == RopedCell::kNoRope || others > step.at.span.t_exit) return step;
   const std::size_t face = 2 * static_cast<std::size_t>(axis) + (ray.negative[axis] ? 0 : 1);
   step.is_certain = false;
-  step.until =
-      plane_left_behind(ray, axis, static_cast<double>(cell.face[face]), step.at.span);
+  step.until = plane_left_behind(ray, axis, static_cast<double>(cell.face[face]), step.at.span);
   return step;
 }
 

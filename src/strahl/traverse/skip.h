@@ -2,8 +2,8 @@
 //
 // Source: skip pointers over boxes [Smits1998], here over the cells of a kd-tree. In depth-first
 //   order what follows a leaf is the upper side of one of the planes around it. Nothing remembers
-//   whether the ray enters that, so it is asked: every upper subtree has a gate, the box of its cell
-//   and where the subtree ends.
+//   whether the ray enters that, so it is asked: every upper subtree has a gate, the box of its
+//   cell and where the subtree ends.
 // Differs: there every node is tested against its box. Here an interval is carried down as by
 //   walk(), one plane a step, and a gate is asked only when it is reached from behind; where only
 //   the upper side is entered, what is below is jumped over.

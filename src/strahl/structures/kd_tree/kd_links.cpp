@@ -122,8 +122,8 @@ KdLinks make_ropes(const KdNodes& nodes, const Aabb& root, std::uint64_t owned,
                    const BuildContext& context) {
   KdLinks links;
   const std::size_t leaves = nodes.size() / 2 + 1;
-  context.require_memory(
-      owned + leaves * sizeof(RopedCell) + nodes.size() * sizeof(std::uint32_t), "kd_tree");
+  context.require_memory(owned + leaves * sizeof(RopedCell) + nodes.size() * sizeof(std::uint32_t),
+                         "kd_tree");
   links.cells.reserve(leaves), links.place.reserve(nodes.size());
   Ropes none;
   none.fill(RopedCell::kNoRope);

@@ -1,5 +1,5 @@
-// structures/kd_tree/kd_links.h - what traversals without a stack need besides nodes: gates of upper
-// subtrees (traverse/skip.h), ropes between cells (traverse/ropes.h).
+// structures/kd_tree/kd_links.h - what traversals without a stack need besides nodes: gates of
+// upper subtrees (traverse/skip.h), ropes between cells (traverse/ropes.h).
 //
 // Thread safety: const methods are safe from any number of threads.
 #pragma once

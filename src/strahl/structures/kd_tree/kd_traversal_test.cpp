@@ -109,7 +109,8 @@ Ray exact_ray(Rng& rng) {
   do {
     for (int axis = 0; axis < 3; ++axis) ray.dir[axis] = static_cast<double>(rng.below(5)) - 2.0;
   } while (norm_max(ray.dir) == 0.0);
-  for (int axis = 0; axis < 3; ++axis) ray.org[axis] = (static_cast<double>(rng.below(25)) - 12) / 2;
+  for (int axis = 0; axis < 3; ++axis)
+    ray.org[axis] = (static_cast<double>(rng.below(25)) - 12) / 2;
   if (rng.below(5) == 0) ray.org = ray.org - 0x1p20 * ray.dir;
   if (rng.below(5) == 0) ray.org = ray.org - 8.0 * ray.dir;
   return ray;
@@ -198,7 +199,8 @@ TEST(KdTraversal, VisitsNoCellTwiceWhereNoPlaneIsTouched) {
   frame.bounds = made.root;
   for (int i = 0; i < 300; ++i) {
     Vec3d org, dir;
-    for (int axis = 0; axis < 3; ++axis) org[axis] = rng.uniform(-5, 5), dir[axis] = rng.uniform(-1, 1);
+    for (int axis = 0; axis < 3; ++axis)
+      org[axis] = rng.uniform(-5, 5), dir[axis] = rng.uniform(-1, 1);
     Seen expected;
     trace(made, KdTraversal::stack, PreparedRay({org, dir}, frame), expected);
     for (const KdTraversal traversal : kTraversals) {

@@ -83,7 +83,8 @@ class KdTree {
   }
   template <class Prims, class Q, class C>
   void trace_otherwise(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (traversal_ == KdTraversal::havran) walk_by_points(view<true>(), prims, ray, query, counters);
+    if (traversal_ == KdTraversal::havran)
+      walk_by_points(view<true>(), prims, ray, query, counters);
     if (traversal_ == KdTraversal::skip) walk_by_skips(view<true>(), prims, ray, query, counters);
     if (traversal_ == KdTraversal::ropes) walk_by_ropes(view<true>(), prims, ray, query, counters);
   }
