@@ -5,11 +5,9 @@
 // Where objects are small beside the cells, the counts agree only if objects' boxes are enlarged by
 // what the publication's evidently were, which fits all depths of a scene at once. Its scene boxes
 // are larger than the scenes, too. STRAHL_CONFORMANCE=full counts depth 7 of all scenes.
-#include <fstream>
-#include <map>
 #include <string>
 #include <tests/support/face_source.h>
-#include <tests/support/shared.h>
+#include <tests/support/published.h>
 
 #include <gtest/gtest.h>
 
@@ -43,20 +41,6 @@ class Objects : public test::FaceSource {
   Vec3d by_;
 };
 
-/// Published numbers by "structure,configuration,scene,quantity".
-const std::map<std::string, double>& published() {
-  static const std::map<std::string, double> table = [] {
-    std::map<std::string, double> rows;
-    std::ifstream file(test::shared_dir() / "reference/havran_1999.csv");
-    for (std::string line; std::getline(file, line);) {
-      const std::size_t comma = line.rfind(',');
-      rows[line.substr(0, comma)] = std::atof(line.c_str() + comma + 1);
-    }
-    return rows;
-  }();
-  return table;
-}
-
 BuildReport build_octree(const Objects& objects, OctantSplit split, int depth, double padding) {
   OctreeOptions options;
   options.split = split, options.padding = padding;
@@ -69,7 +53,7 @@ BuildReport build_octree(const Objects& objects, OctantSplit split, int depth, d
 
 void expect_published(double got, const std::string& key, double tolerance) {
   SCOPED_TRACE(key);
-  const double expected = published().at(key);
+  const double expected = test::published().at(key);
   EXPECT_NEAR(got, expected, tolerance * expected);
 }
 

@@ -60,34 +60,40 @@ class Voxeliser {
 
 std::optional<CellLists> make_cell_lists(const UniformCells& cells, const CellListInput& input,
                                          std::uint64_t owned, const BuildContext& context) {
-  const std::size_t count = cells.count();
-  owned += (count + 1) * sizeof(std::uint32_t);
+  const std::size_t count = cells.count(), primitives = input.refs.size();
+  owned += (count + 1 + primitives) * sizeof(std::uint32_t);
   context.require_memory(owned, "cells");
   CellLists lists;
   std::vector<std::uint32_t>& first = lists.first;
   first.assign(count + 1, 0);
   const auto report = [&](std::size_t done, double before, const char* stage) {
-    const double share = static_cast<double>(done) / static_cast<double>(input.refs.size());
+    const double share = static_cast<double>(done) / static_cast<double>(primitives);
     context.check(before + 0.5 * share, stage);
   };
-  std::uint64_t total = 0;
-  Voxeliser counter(cells, input, [&](std::size_t cell) { ++first[cell], ++total; });
-  for (std::size_t i = 0; i < input.refs.size(); ++i) {
-    if (i % kReportEvery == 0) report(i, 0.0, "counting references");
-    counter.add(input.refs[i]);
-    if (total > input.most) return std::nullopt;
+  // Cells are remembered: to find them costs more than to write them down.
+  std::vector<std::uint32_t> touched, ends(primitives);
+  Voxeliser voxeliser(cells, input, [&](std::size_t cell) {
+    ++first[cell], touched.push_back(static_cast<std::uint32_t>(cell));
+  });
+  for (std::size_t i = 0; i < primitives; ++i) {
+    if (i % kReportEvery == 0) {
+      report(i, 0.0, "counting references");
+      context.require_memory(owned + touched.capacity() * sizeof(std::uint32_t), "references");
+    }
+    voxeliser.add(input.refs[i]);
+    if (touched.size() > input.most) return std::nullopt;
+    ends[i] = static_cast<std::uint32_t>(touched.size());
   }
-  context.require_memory(owned + total * sizeof(std::uint32_t), "cells and references");
+  const std::size_t total = touched.size();
+  context.require_memory(owned + (touched.capacity() + total) * sizeof(std::uint32_t),
+                         "cells and references");
   lists.references.resize(total);
   // Each cell's entry becomes the end of its list, then steps back to its beginning.
   for (std::size_t c = 1; c <= count; ++c) first[c] += first[c - 1];
-  std::uint32_t reference = 0;
-  Voxeliser writer(cells, input,
-                   [&](std::size_t cell) { lists.references[--first[cell]] = reference; });
-  for (std::size_t i = input.refs.size(); i-- > 0;) {
-    if (i % kReportEvery == 0) report(input.refs.size() - i, 0.5, "listing references");
-    reference = input.refs[i].reference;
-    writer.add(input.refs[i]);
+  for (std::size_t i = primitives, at = total; i-- > 0;) {
+    if (i % kReportEvery == 0) report(primitives - i, 0.5, "listing references");
+    for (const std::uint32_t begin = i == 0 ? 0 : ends[i - 1]; at > begin;)
+      lists.references[--first[touched[--at]]] = input.refs[i].reference;
   }
   return lists;
 }

@@ -42,6 +42,16 @@ TEST(SizeGroups, TellSizesApart) {
   EXPECT_EQ(find_size_groups(refs_of(boxes), 1, 1.0).mean.size(), 1u);
 }
 
+TEST(SizeGroups, AGapComesBeforeWhatIsFrequent) {
+  std::vector<Aabb> boxes{cube({}, 100)};  // a floor under balls that are smaller and more, again
+  for (int level = 0, count = 1; level < 5; ++level, count *= 5)
+    for (int i = 0; i < count; ++i) boxes.push_back(cube({}, std::pow(0.4, level)));
+  const SizeGroups two = find_size_groups(refs_of(boxes), 2, 4.0);
+  ASSERT_EQ(two.mean.size(), 2u);
+  for (std::size_t i = 0; i < boxes.size(); ++i) EXPECT_EQ(two.group_of[i], i == 0);
+  EXPECT_EQ(find_size_groups(refs_of(boxes), 3, 4.0).mean.size(), 3u);
+}
+
 TEST(SizeGroups, OfLikeOrAbsurdSizesAreStillGroups) {
   const std::vector<Aabb> like(10, cube({}, 2)), points(3, cube({1, 1, 1}, 0));
   EXPECT_EQ(find_size_groups(refs_of(like), 4, 1.0).mean.size(), 1u);

@@ -33,41 +33,64 @@ struct Histogram {
   }
 };
 
-/// Ends of the runs of bins, the last one included: `groups` runs with the least deviation.
-std::vector<std::size_t> best_cuts(const Histogram& h, std::size_t groups) {
-  using Row = std::array<double, kBins + 1>;
-  std::vector<Row> cost(groups);
-  std::vector<std::array<std::size_t, kBins + 1>> cut(groups);
-  for (std::size_t end = 0; end <= kBins; ++end) cost[0][end] = h.deviation(0, end);
-  for (std::size_t g = 1; g < groups; ++g)
-    for (std::size_t end = 0; end <= kBins; ++end) {
-      cost[g][end] = std::numeric_limits<double>::infinity();
-      for (std::size_t begin = 0; begin <= end; ++begin) {
-        const double sum = cost[g - 1][begin] + h.deviation(begin, end);
-        if (sum < cost[g][end]) cost[g][end] = sum, cut[g][end] = begin;
-      }
-    }
-  std::vector<std::size_t> ends{kBins};
-  for (std::size_t g = groups; g-- > 1;) ends.push_back(cut[g][ends.back()]);
-  std::reverse(ends.begin(), ends.end());
-  return ends;
+/// Bins of one group.
+struct Run {
+  std::size_t begin, end;
+};
+
+/// Where to cut a run in two. Gaps come before cuts between neighbours, then the larger value.
+struct Cut {
+  std::size_t at = 0;
+  bool is_gap = false;
+  double value = 0.0;
+
+  bool is_better_than(const Cut& other) const {
+    return is_gap != other.is_gap ? is_gap : value > other.value;
+  }
+};
+
+Cut widest_gap(const Histogram& h, const Run& run, double bin, double least) {
+  Cut best;
+  std::size_t last = run.begin;  // the occupied bin before
+  for (std::size_t b = run.begin; b < run.end; ++b) {
+    if (h.count[b + 1] == h.count[b]) continue;
+    const double width = b > last ? static_cast<double>(b - last - 1) * bin : 0.0;
+    if (width >= least && h.count[b] > h.count[run.begin])
+      if (const Cut cut{b, true, width}; best.at == 0 || cut.is_better_than(best)) best = cut;
+    last = b;
+  }
+  return best;
 }
 
-/// Runs without primitives, and those too much like the one below, are not told apart.
-std::vector<std::size_t> distinct(const Histogram& h, const std::vector<std::size_t>& ends,
-                                  double log_ratio) {
-  std::vector<std::size_t> kept;
-  std::size_t begin = 0, before = 0;  // of the run and of the one below
-  for (const std::size_t end : ends) {
-    if (h.count[end] == h.count[begin]) continue;
-    if (!kept.empty() && h.mean(begin, end) - h.mean(before, begin) < log_ratio)
-      kept.pop_back();
-    else
-      before = begin;
-    kept.push_back(end), begin = end;
+/// The two parts with the least deviation, if their means differ by as much.
+Cut closest_parts(const Histogram& h, const Run& run, double least) {
+  Cut best;
+  const double whole = h.deviation(run.begin, run.end);
+  for (std::size_t b = run.begin + 1; b < run.end; ++b) {
+    if (h.count[b] == h.count[run.begin] || h.count[b] == h.count[run.end]) continue;
+    const Cut cut{b, false, whole - h.deviation(run.begin, b) - h.deviation(b, run.end)};
+    if (h.mean(b, run.end) - h.mean(run.begin, b) >= least && cut.is_better_than(best)) best = cut;
   }
-  if (!kept.empty()) kept.back() = kBins;
-  return kept;
+  return best;
+}
+
+/// @param bin,least in powers of 2
+std::vector<Run> cut_into_runs(const Histogram& h, std::size_t most, double bin, double least) {
+  std::vector<Run> runs{{0, kBins}};
+  while (runs.size() < most) {
+    std::size_t in = 0;
+    Cut best;
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      Cut cut = widest_gap(h, runs[r], bin, least);
+      if (cut.at == 0) cut = closest_parts(h, runs[r], least);
+      if (cut.at > 0 && (best.at == 0 || cut.is_better_than(best))) best = cut, in = r;
+    }
+    if (best.at == 0) break;
+    const Run above{best.at, runs[in].end};
+    runs[in].end = best.at;
+    runs.insert(runs.begin() + static_cast<std::ptrdiff_t>(in) + 1, above);
+  }
+  return runs;
 }
 
 }  // namespace
@@ -89,14 +112,17 @@ SizeGroups find_size_groups(std::span<const PrimRef> refs, int most, double rati
   }
   for (std::size_t b = 0; b < kBins; ++b)
     h.count[b + 1] += h.count[b], h.sum[b + 1] += h.sum[b], h.squares[b + 1] += h.squares[b];
-  const std::vector<std::size_t> ends =
-      distinct(h, best_cuts(h, static_cast<std::size_t>(most)), std::log2(ratio));
+  const double bin = (*hi - *lo) / kBins;
+  const std::vector<Run> runs =
+      cut_into_runs(h, static_cast<std::size_t>(most), bin, std::log2(ratio));
   groups.mean.clear();
-  for (std::size_t g = 0; g < ends.size(); ++g)
-    groups.mean.push_back(std::exp2(h.mean(g == 0 ? 0 : ends[g - 1], ends[g])));
-  for (std::size_t i = 0; i < size.size(); ++i)
-    groups.group_of[i] = static_cast<std::uint8_t>(
-        std::upper_bound(ends.begin(), ends.end(), bin_of(size[i])) - ends.begin());
+  for (const Run& run : runs) groups.mean.push_back(std::exp2(h.mean(run.begin, run.end)));
+  for (std::size_t i = 0; i < size.size(); ++i) {
+    const auto above =
+        std::upper_bound(runs.begin(), runs.end(), bin_of(size[i]),
+                         [](std::size_t at, const Run& run) { return at < run.end; });
+    groups.group_of[i] = static_cast<std::uint8_t>(above - runs.begin());
+  }
   return groups;
 }
 

@@ -1,8 +1,9 @@
 // structures/hug/size_groups.h - tells large primitives from small ones.
 //
 // Source: the histogram of sizes of [Cazals1995]. A size is the diagonal of a box, taken by its
-//   logarithm. The cuts are those with the least sum of squared deviations from the groups' means,
-//   found by trying all ([Fisher1958]); the papers leave open how a histogram is cut.
+//   logarithm. The papers leave open how a histogram is cut. Here it is cut at its widest gap, as
+//   long as there is one as wide as the ratio asks for: a floor is not of a kind with what stands
+//   on it. Then into parts that deviate least from their means ([Fisher1958]).
 // Thread safety: pure functions.
 #pragma once
 
@@ -19,8 +20,8 @@ struct SizeGroups {
   std::vector<double> mean;            ///< size of each group, geometric; ascending
 };
 
-/// At most `most` groups, whose mean sizes differ by at least the ratio from one to the next.
-/// At least one group; O(n + most * bins^2).
+/// At most `most` groups; the sizes of two neighbours, or their means, differ by the ratio or more.
+/// At least one group; O(n + most^2 * bins).
 SizeGroups find_size_groups(std::span<const PrimRef> refs, int most, double ratio);
 
 }  // namespace strahl
