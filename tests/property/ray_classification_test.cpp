@@ -4,9 +4,9 @@
 // STRAHL_CONFORMANCE=full takes a million rays per scene. The bvh, which brute force checks
 // elsewhere, says what is hit.
 #include <algorithm>
-#include <thread>
 #include <tests/support/queries.h>
 #include <tests/support/shared.h>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,8 @@ TEST_P(RayClassificationLists, HoldWhatIsHitWhileTwoThreadsDivideAndEvict) {
   const RayClassification structure(*scene, options, {});
   const std::uint64_t most = 256ull * scene->size(), fixed = structure.report().bytes;
   std::size_t hits[2] = {};
-  std::thread other([&] { hits[1] = check_lists(structure, *oracle, rays, 1u << 30, most - fixed); });
+  std::thread other(
+      [&] { hits[1] = check_lists(structure, *oracle, rays, 1u << 30, most - fixed); });
   hits[0] = check_lists(structure, *oracle, rays, 0, most - fixed);
   other.join();
   EXPECT_GT(hits[0] + hits[1], rays / 4);
@@ -94,7 +95,8 @@ TEST_P(RayClassificationLists, HoldWhatIsHitWhileTwoThreadsDivideAndEvict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RayClassificationLists,
-                         testing::Values("gen:gears:2", "gen:balls:2", "gen:mount:4", "gen:tree:6"));
+                         testing::Values("gen:gears:2", "gen:balls:2", "gen:mount:4",
+                                         "gen:tree:6"));
 
 }  // namespace
 }  // namespace strahl::test

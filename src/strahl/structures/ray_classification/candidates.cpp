@@ -30,8 +30,7 @@ StoredBall stored(const Ball& ball, const RaySpace& space) {
 
 }  // namespace
 
-Candidates::Candidates(const PrimitiveSource& source, int group_size,
-                       const BuildContext& context) {
+Candidates::Candidates(const PrimitiveSource& source, int group_size, const BuildContext& context) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   if (refs.empty()) return;
   Aabb box;

@@ -48,8 +48,7 @@ RayClassification::RayClassification(const PrimitiveSource& source, const Option
   std::vector<std::span<const std::uint32_t>> roots;
   for (int root = 0; root < 2 * kFaces; ++root) roots.push_back(candidates_.order(root % kFaces));
   cells_ = std::make_unique<CellCache>(
-      std::move(roots),
-      cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
+      std::move(roots), cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
       options.patience);
 }
 

@@ -70,7 +70,9 @@ std::vector<Geometry> mixture(std::uint64_t seed) {
     spheres.spheres.push_back({any(rng), radius});
     const Vec3d base = any(rng);
     cones.cones.push_back({base, radius, base + any(rng, i % 4 == 0 ? 0.01 : 0.6),
-                           i % 3 == 0 ? 0.0 : i % 3 == 1 ? radius : radius * rng.uniform()});
+                           i % 3 == 0   ? 0.0
+                           : i % 3 == 1 ? radius
+                                        : radius * rng.uniform()});
   }
   all.push_back(std::move(spheres)), all.push_back(std::move(cones));
   return all;
