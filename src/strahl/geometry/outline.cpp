@@ -58,8 +58,8 @@ Outline outline_of(const Aabb& box, const Affine& map) {
   Outline out;
   out.count = 8;
   for (std::size_t i = 0; i < 8; ++i)
-    out.ball[i].center = map.point({(i & 1 ? box.hi : box.lo).x, (i & 2 ? box.hi : box.lo).y,
-                                    (i & 4 ? box.hi : box.lo).z});
+    out.ball[i].center = map.point(
+        {(i & 1 ? box.hi : box.lo).x, (i & 2 ? box.hi : box.lo).y, (i & 4 ? box.hi : box.lo).z});
   return out;
 }
 

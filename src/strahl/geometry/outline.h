@@ -4,7 +4,8 @@
 // Contract: whenever a ray hits the thing, the ray passes through its outline, up to the rounding
 //   that the ray's own widening (math/ray.h) and 2^-44 of the distances from its origin cover.
 //   Triangles: exactly, the hull of the corners.
-//   Spheres: a hit needs r^2 - p.p > 0 for a point p of the line known to 2^-100 (geometry/sphere.h),
+//   Spheres: a hit needs r^2 - p.p > 0 for a point p of the line known to 2^-100
+//   (geometry/sphere.h),
 //     so the line passes the sphere, and t is within a few roundings of the root.
 //   Cones: a hit is a point of the line between the planes of the two rims whose residual q, the
 //     quadratic form of the double cone, is only the rounding of its discriminant carried over.

@@ -29,8 +29,8 @@ Vec3d normal_of(std::span<const StoredBall> corners) {
 Beam::Beam(const RayCell& cell, int face)
     : center_(0.5 * (Vec3d{cell.lo[0], cell.lo[1], cell.lo[2]} +
                      Vec3d{cell.hi[0], cell.hi[1], cell.hi[2]})),
-      half_(0.5 *
-            (Vec3d{cell.hi[0], cell.hi[1], cell.hi[2]} - Vec3d{cell.lo[0], cell.lo[1], cell.lo[2]})) {
+      half_(0.5 * (Vec3d{cell.hi[0], cell.hi[1], cell.hi[2]} -
+                   Vec3d{cell.lo[0], cell.lo[1], cell.lo[2]})) {
   const int axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double forward = face % 2 == 0 ? 1.0 : -1.0;
   for (std::size_t i = 0; i < 4; ++i) {

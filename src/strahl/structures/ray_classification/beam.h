@@ -11,7 +11,8 @@
 // Triangles: w.((a - o) x (b - a)) is the side on which the ray (o, w) passes edge ab, linear in o
 //   and in w, so its extremes over the cell are at corners. A ray hits if the sides of all edges
 //   agree (docs/semantics.md); if two edges differ for all rays of the cell, none hits.
-// Fronts: a front hit has dir.N <= 0. Normals of stored corners are off by the slack of the corners,
+// Fronts: a front hit has dir.N <= 0. Normals of stored corners are off by the slack of the
+// corners,
 //   and seen through an instance by 2^-20 of an angle (3 roundings times a condition below 2^30).
 // Thread safety: const methods are safe from any number of threads.
 #pragma once

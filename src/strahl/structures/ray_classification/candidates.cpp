@@ -30,8 +30,7 @@ StoredBall stored(const Ball& ball, const RaySpace& space) {
 
 }  // namespace
 
-Candidates::Candidates(const PrimitiveSource& source, int group_size,
-                       const BuildContext& context) {
+Candidates::Candidates(const PrimitiveSource& source, int group_size, const BuildContext& context) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   if (refs.empty()) return;
   Aabb box;
@@ -90,20 +89,25 @@ void Candidates::sort_orders() {
   }
 }
 
-bool Candidates::may_hit_primitive(std::size_t place, const Beam& beam, bool culls) const {
+bool Candidates::may_see(std::size_t place, const Beam& beam, bool culls) const {
+  const std::span<const StoredBall> balls = balls_of(place);
+  return !culls || balls.size() != 3 || beam.may_see_front(balls);
+}
+
+bool Candidates::may_meet(std::size_t place, const Beam& beam) const {
   const std::span<const StoredBall> balls = balls_of(place);
   if (balls.empty()) return true;
-  if (balls.size() != 3) return beam.may_meet_hull(balls);
-  return (!culls || beam.may_see_front(balls)) && beam.may_meet_triangle(balls);
+  return balls.size() == 3 ? beam.may_meet_triangle(balls) : beam.may_meet_hull(balls);
 }
 
 bool Candidates::may_hit(const CandidateGroup& group, const Beam& beam, bool culls) const {
   const Vec3d lo = space_.local(group.box.lo), hi = space_.local(group.box.hi);
   if (!beam.may_meet(lo, hi)) return false;
   // A look at the primitives pays where they are not small beside the beam.
-  if (!culls && norm_max(hi - lo) < kSmall * beam.breadth()) return true;
+  const bool is_small = norm_max(hi - lo) < kSmall * beam.breadth();
+  if (is_small && !culls) return true;
   for (std::size_t place = group.first; place < group.first + std::size_t{group.count}; ++place)
-    if (may_hit_primitive(place, beam, culls)) return true;
+    if (may_see(place, beam, culls) && (is_small || may_meet(place, beam))) return true;
   return false;
 }
 

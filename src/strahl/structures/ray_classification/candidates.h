@@ -65,7 +65,9 @@ class Candidates {
   }
   bool holds_outline(std::size_t place, const PrimitiveSource& source) const;
   bool comes_first(int face, std::uint32_t a, std::uint32_t b) const;
-  bool may_hit_primitive(std::size_t place, const Beam& beam, bool culls) const;
+  /// The two halves of the question for one primitive: from the right side, and at all.
+  bool may_see(std::size_t place, const Beam& beam, bool culls) const;
+  bool may_meet(std::size_t place, const Beam& beam) const;
 
   RaySpace space_;
   std::vector<CandidateGroup> groups_;

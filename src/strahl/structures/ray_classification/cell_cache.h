@@ -47,8 +47,7 @@ class CellCache {
     /// Null where there is none (any more).
     Cell* child(unsigned number) const {
       const Children* children = children_.load(std::memory_order_acquire);
-      return children == nullptr ? nullptr
-                                 : children->cell[number].load(std::memory_order_acquire);
+      return children == nullptr ? nullptr : children->cell[number].load(std::memory_order_acquire);
     }
     bool has_children() const;
 
@@ -131,8 +130,8 @@ class CellCache {
   Epochs epochs_;
   std::atomic<std::uint64_t> bytes_{0}, added_{0}, evicted_{0}, refused_{0};
   std::atomic<std::uint32_t> clock_{1};
-  std::mutex evicting_;            ///< held by the thread that evicts; guards what follows
-  std::vector<Retired> retired_;   ///< in the order of their epochs
+  std::mutex evicting_;           ///< held by the thread that evicts; guards what follows
+  std::vector<Retired> retired_;  ///< in the order of their epochs
   std::uint64_t retired_bytes_ = 0;
 };
 

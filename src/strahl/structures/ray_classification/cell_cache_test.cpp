@@ -32,8 +32,8 @@ void walk_paths(CellCache& cache, std::uint64_t seed, int rays, unsigned fan, st
         child = cache.add(*cell, path.back(), list_of(path));
       if (child == nullptr) break;
       const std::vector<std::uint32_t> expected = list_of(path);
-      ASSERT_TRUE(std::equal(expected.begin(), expected.end(), child->list().begin(),
-                             child->list().end()));
+      ASSERT_TRUE(
+          std::equal(expected.begin(), expected.end(), child->list().begin(), child->list().end()));
       cell = child;
     }
     cache.touch(*cell);

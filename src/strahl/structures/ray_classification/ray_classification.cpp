@@ -30,7 +30,7 @@ OptionTable<RayClassificationOptions> option_fields(const RayClassificationOptio
   return {
       option("max_candidates", &O::max_candidates, 1, 1 << 20,
              "cells with longer lists are divided"),
-      option("min_cell", &O::min_cell, 0x1p-20, 1.0,
+      option("min_cell", &O::min_cell, 1e-6, 1.0,
              "smallest side of a cell as a share of the whole"),
       option("group_size", &O::group_size, 1, 256, "most primitives that are one candidate"),
       option("patience", &O::patience, 1, 128, "rays that miss a cell before it is made"),
@@ -48,8 +48,7 @@ RayClassification::RayClassification(const PrimitiveSource& source, const Option
   std::vector<std::span<const std::uint32_t>> roots;
   for (int root = 0; root < 2 * kFaces; ++root) roots.push_back(candidates_.order(root % kFaces));
   cells_ = std::make_unique<CellCache>(
-      std::move(roots),
-      cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
+      std::move(roots), cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
       options.patience);
 }
 

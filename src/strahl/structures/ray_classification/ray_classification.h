@@ -1,5 +1,5 @@
-// structures/ray_classification/ray_classification.h - rays sorted into five-dimensional cells, each
-// with a list of what its rays can hit.
+// structures/ray_classification/ray_classification.h - rays sorted into five-dimensional cells,
+// each with a list of what its rays can hit.
 //
 // Source: [ArvoKirk1987].
 // Layout: groups of primitives, fixed at build (candidates.h); six roots, one per face of the
@@ -121,8 +121,7 @@ class RayClassification {
       if (first > ray.t_exit) return;
       if (first > 0.0 && !may_hit_before(first, query.t_max())) return;
       counters.volume_tests(1);
-      const Interval span =
-          clip_to_box(ray, group.box.lo, group.box.hi, {ray.t_enter, ray.t_exit});
+      const Interval span = clip_to_box(ray, group.box.lo, group.box.hi, {ray.t_enter, ray.t_exit});
       if (span.t_enter > span.t_exit || !may_hit_before(span.t_enter, query.t_max())) continue;
       if (test_references(candidates_.references(group), prims, ray, query, counters)) return;
     }
