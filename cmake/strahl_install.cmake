@@ -12,7 +12,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/strahl DESTINATION ${CMAKE_INSTALL_I
         PATTERN "*.def"
         PATTERN "*_test.h" EXCLUDE
         PATTERN "strahl/io" EXCLUDE
-        PATTERN "strahl/render" EXCLUDE)
+        PATTERN "strahl/render" EXCLUDE
+        PATTERN "strahl/measure" EXCLUDE)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/strahl)
 install(EXPORT strahlTargets NAMESPACE strahl:: DESTINATION ${package_dir})
@@ -25,7 +26,7 @@ install(FILES ${PROJECT_BINARY_DIR}/strahlConfig.cmake
               ${PROJECT_BINARY_DIR}/strahlConfigVersion.cmake DESTINATION ${package_dir})
 
 # A static library needs its dependencies on the user's link line, a shared one does not.
-set(pc_requires qhull_r)
+set(pc_requires "qhull_r libhwy")
 if(STRAHL_USES_TBB)
   string(APPEND pc_requires " tbb")
 endif()

@@ -3,8 +3,8 @@
 # what the library and the command line need. Returns at once when nothing is missing.
 set -euo pipefail
 
-packages=(g++ cmake ninja-build pkgconf ccache git python3 libtbb-dev libqhull-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libpng-dev libopenexr-dev libzip-dev)
+packages=(g++ cmake ninja-build pkgconf ccache git python3 libhwy-dev libtbb-dev libqhull-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libopenexr-dev libzip-dev)
 development=(clang clang-format clang-tidy libclang-rt-14-dev libgtest-dev librapidcheck-dev
   libboost-dev libcgal-dev libbenchmark-dev libembree-dev python3-numpy)
 case "${1:-}" in

@@ -12,22 +12,16 @@
 #include <apps/strahl/commands.h>
 
 #include <strahl/base/executor.h>
+#include <strahl/structures/wide_bvh/wide_kernel.h>
 
 namespace strahl::cli {
 namespace {
 
-/// The widest vector instructions of this processor that the program knows by name.
-const char* processor_isa() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return "avx512";
-  if (__builtin_cpu_supports("avx2")) return "avx2";
-  if (__builtin_cpu_supports("sse4.2")) return "sse4.2";
-  return "sse2";
-#elif defined(__aarch64__)
-  return "neon";
-#else
-  return "unknown";
-#endif
+/// The instruction set that wide_bvh uses here, and those it could.
+std::string isa_text() {
+  std::string others;
+  for (const WideKernel* kernel : wide_kernels()) others += fmt::format(" {}", kernel->isa);
+  return fmt::format("{} (STRAHL_ISA chooses one of:{})", wide_kernel_of_environment().isa, others);
 }
 
 std::string tbb_version() {
@@ -45,7 +39,7 @@ std::string version_text(bool verbose) {
   if (!verbose) return text;
   text += fmt::format("commit         {}\n", STRAHL_GIT_COMMIT);
   text += fmt::format("compiler       {}\n", __VERSION__);
-  text += fmt::format("isa            scalar (processor: {})\n", processor_isa());
+  text += fmt::format("isa            {}\n", isa_text());
   text += fmt::format("threads        {}{}\n", std::thread::hardware_concurrency(),
                       Executor::threads_available() ? "" : ", but built without oneTBB: 1");
   text += fmt::format("oneTBB         {}\n", tbb_version());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <utility>
 
 #include <strahl/base/fp_env.h>
@@ -10,6 +11,7 @@
 #include <strahl/base/timer.h>
 #include <strahl/catalog/accelerator.h>
 #include <strahl/catalog/catalog.h>
+#include <strahl/query/float_rays.h>
 #include <strahl/query/policies.h>
 #include <strahl/query/scene_visitor.h>
 
@@ -23,6 +25,12 @@ inline void make_unique(std::vector<Hit>& hits) {
   std::sort(hits.begin(), hits.end(), comes_before);
   hits.erase(std::unique(hits.begin(), hits.end(), is_same_hit), hits.end());
 }
+
+/// A structure that traces float rays without filters faster than any others.
+template <class S>
+concept TracesFloats = requires(const S& s) {
+  { s.traces_floats() } -> std::same_as<bool>;
+};
 
 /// S has kName, kTitle, kRefersOnce, Options, a constructor from (PrimitiveSource, Options,
 /// BuildContext), trace(), report(), validate(source), hash_into(hash).
@@ -84,7 +92,12 @@ class Erased final : public Accelerator {
   template <class Q, class C>
   void trace(SceneVisitor& prims, const Ray& ray, Q& query, C& counters) const {
     prims.begin_ray();
-    structure_.trace(prims, PreparedRay(ray, scene_->world_frame()), query, counters);
+    if constexpr (requires {
+                    structure_.trace_ray(prims, ray, scene_->world_frame(), query, counters);
+                  })
+      structure_.trace_ray(prims, ray, scene_->world_frame(), query, counters);
+    else
+      structure_.trace(prims, PreparedRay(ray, scene_->world_frame()), query, counters);
   }
 
   static Ray ray_of(const SpanJob& job, std::size_t i) {
@@ -93,11 +106,13 @@ class Erased final : public Accelerator {
   }
 
   /// Calls body(i, ray, filter) for the valid rays of the span and counts the others.
-  template <class Body>
-  static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body) {
+  /// @param is_done (i) -> whether that ray needs nothing more
+  template <class Body, class IsDone>
+  static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body, IsDone is_done) {
     Pulse pulse(job);
     for (std::size_t i = job.begin; i < job.end; ++i) {
       pulse.beat(i);
+      if (is_done(i)) continue;
       const Ray ray = ray_of(job, i);
       if (is_valid(ray))
         body(i, ray, job.rays.filter(i));
@@ -107,17 +122,33 @@ class Erased final : public Accelerator {
     pulse.beat(job.end);
   }
 
+  template <class Body>
+  static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body) {
+    for_valid_rays(job, report, body, [](std::size_t) { return false; });
+  }
+
   /// One answer per ray; T{} for invalid rays.
   template <class Q, class C, class T, class Result>
   void answer(const SpanJob& job, C& counters, BatchReport& report, T* out,
               Result result_of) const {
     SceneVisitor prims(*scene_);
     std::fill(out + job.begin, out + job.end, T{});
-    for_valid_rays(job, report, [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
+    const auto slow = [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
       Q query(ray, filter);
       trace(prims, ray, query, counters);
       out[i] = result_of(query);
-    });
+    };
+    if constexpr (TracesFloats<S>) {
+      if (structure_.traces_floats() && is_plain(job.rays) && !scene_->has_hidden_geometry()) {
+        auto fast = structure_.template float_trace<Q>(prims, counters);
+        const FloatRays rays(job.rays);
+        for_valid_rays(job, report, slow, [&](std::size_t i) {
+          return fast.run(rays.org(i), rays.dir(i), rays.t_min(i), rays.t_max(i), out[i]);
+        });
+        return;
+      }
+    }
+    for_valid_rays(job, report, slow);
   }
 
   template <class C>

@@ -24,6 +24,9 @@ class ObjectSource final : public PrimitiveSource {
     return scene_.object_clip(reference(i), box);
   }
   Outline outline(std::uint32_t i) const override;
+  bool triangle(std::uint32_t i, TriangleVertices& vertices) const override {
+    return scene_.object_triangle(reference(i), vertices);
+  }
 
  private:
   std::uint32_t reference(std::uint32_t i) const { return scene_.first_reference(instance_) + i; }

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include <strahl/math/aabb.h>
+#include <strahl/geometry/mesh.h>
 
 namespace strahl {
 
@@ -23,6 +23,9 @@ class PrimitiveSource {
   virtual Aabb clip(std::uint32_t i, const Aabb& box) const = 0;
   /// A convex set closer than the box where one is known (geometry/outline.h). bounds(i) not empty.
   virtual Outline outline(std::uint32_t i) const;
+  /// True when a ray of the structure hits thing i exactly where it crosses a triangle, which is
+  /// then written; false for all that is not a triangle or lies under a transformation.
+  virtual bool triangle(std::uint32_t /*i*/, TriangleVertices& /*vertices*/) const { return false; }
 };
 
 }  // namespace strahl

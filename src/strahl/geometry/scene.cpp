@@ -93,6 +93,7 @@ Scene::Scene(SceneData data) : data_(std::move(data)) {
 
 void Scene::check_geometries() {
   for (const Geometry& g : data_.geometries) {
+    has_hidden_geometry_ = has_hidden_geometry_ || g.mask == 0;
     if (g.size() > 0xfffffffeu)
       throw Error(ErrorCode::resource, "more than 2^32 - 2 primitives in a geometry", data_.source);
     if (g.kind == PrimitiveKind::triangle) {
@@ -242,6 +243,18 @@ Aabb Scene::object_clip(std::uint32_t reference, const Aabb& box) const {
   const Geometry& g = data_.geometries[part.geometry];
   if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(object_bounds(reference), box);
   return strahl::clip(g.mesh[reference - part.first_reference], box);
+}
+
+bool Scene::object_triangle(std::uint32_t reference, TriangleVertices& vertices) const {
+  const Part& part = part_of(reference);
+  const Geometry& g = data_.geometries[part.geometry];
+  if (g.kind != PrimitiveKind::triangle) return false;
+  vertices = g.mesh[reference - part.first_reference];
+  return true;
+}
+
+bool Scene::triangle(std::uint32_t reference, TriangleVertices& vertices) const {
+  return is_identity_[part_of(reference).instance] != 0 && object_triangle(reference, vertices);
 }
 
 Aabb Scene::bounds(std::uint32_t reference) const {

@@ -135,10 +135,12 @@ class Scene final : public PrimitiveSource {
   /// Conservative world box of the part of the reference inside box; empty only if that part is.
   Aabb clip(std::uint32_t reference, const Aabb& box) const override;
   Outline outline(std::uint32_t reference) const override;
+  bool triangle(std::uint32_t reference, TriangleVertices& vertices) const override;
   /// The same in the object space of the reference's instance.
   Aabb object_bounds(std::uint32_t reference) const;
   Aabb object_clip(std::uint32_t reference, const Aabb& box) const;
   Outline object_outline(std::uint32_t reference) const;
+  bool object_triangle(std::uint32_t reference, TriangleVertices& vertices) const;
   /// Union of all reference boxes.
   const Aabb& total_bounds() const { return bounds_; }
 
@@ -146,6 +148,8 @@ class Scene final : public PrimitiveSource {
   const RayFrame& world_frame() const { return world_frame_; }
   const RayFrame& object_frame(std::uint32_t instance) const { return object_frames_[instance]; }
   bool is_identity(std::uint32_t instance) const { return is_identity_[instance] != 0; }
+  /// Whether there is a geometry without any mask bit, which no query sees.
+  bool has_hidden_geometry() const { return has_hidden_geometry_; }
 
   /// Content hash of geometry, instances and ids (not of materials, view, warnings).
   std::uint64_t hash() const { return hash_; }
@@ -173,6 +177,7 @@ class Scene final : public PrimitiveSource {
   Aabb bounds_;
   SceneCounts counts_;
   std::uint32_t reference_count_ = 0;
+  bool has_hidden_geometry_ = false;
   std::uint64_t hash_ = 0;
 };
 

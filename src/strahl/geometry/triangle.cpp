@@ -189,7 +189,7 @@ std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const Tri
   const int ca = edge_sign(ray, tri.c, tri.a, edge_values.y);
   if (ab != ca || ab == 0) return std::nullopt;
   if (edge_sign(ray, tri.b, tri.c, edge_values.z) != ab) return std::nullopt;
-  const std::optional<double> t = crossing_t(ray, tri, tri.a - ray.org);
+  const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
   if (!t) return std::nullopt;
   return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
 }

@@ -68,17 +68,18 @@ inline int edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, dou
 }
 
 /// Canonical t of a triangle known to be crossed; empty when not finite.
-inline std::optional<double> crossing_t(const PreparedRay& ray, const TriangleVertices& tri,
-                                        const Vec3d& A) {
+/// @param A tri.a - org
+inline std::optional<double> crossing_t(const Vec3d& org, const Vec3d& dir,
+                                        const TriangleVertices& tri, const Vec3d& A) {
   const Vec3d ab = tri.b - tri.a, ac = tri.c - tri.a;
   const Vec3d n = cross(ab, ac);
-  const double numerator = dot(A, n), denominator = dot(ray.dir, n);
+  const double numerator = dot(A, n), denominator = dot(dir, n);
   // 2^42 * 9 u * 2 |ab| |ac|: what |numerator| / |A|_1 and |denominator| / |dir|_1 must exceed.
   const double needed = 18 * 0x1p-11 * norm_max(ab) * norm_max(ac);
   const bool numerator_is_certain = std::abs(numerator) > needed * norm1(A);
-  const bool denominator_is_certain = std::abs(denominator) > needed * norm1(ray.dir);
+  const bool denominator_is_certain = std::abs(denominator) > needed * norm1(dir);
   if (numerator_is_certain & denominator_is_certain) return numerator / denominator;
-  return exact_t(ray.org, ray.dir, tri);
+  return exact_t(org, dir, tri);
 }
 
 /// intersect() where a sign of the three edge values (of ab, ca, bc) is uncertain.
@@ -102,7 +103,7 @@ inline std::optional<TriangleHit> intersect(const PreparedRay& ray, const Triang
     if (has_front & has_back) return std::nullopt;
     return intersect_uncertain(ray, tri, e);
   }
-  const std::optional<double> t = crossing_t(ray, tri, A);
+  const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, A);
   if (!t) return std::nullopt;
   return TriangleHit{*t + 0.0, is_front};  // -0 + 0 is +0
 }

@@ -35,6 +35,10 @@ struct HitFilter {
   double after_t = -1.0;  ///< resume cursor: only hits after (t, id) in the order
   PrimitiveId after_id{0, 0, 0};
 
+  /// Whether it lets every hit pass.
+  bool accepts_all() const {
+    return mask == ~0u && !cull_back && after_t < 0.0 && exclude == PrimitiveId{kNoId, kNoId, kNoId};
+  }
   bool accepts(const Hit& hit) const {
     if (cull_back && !hit.is_front) return false;
     if (hit.id == exclude) return false;

@@ -31,6 +31,15 @@ class ObjectVisitor {
   }
   bool has_stopped() const { return has_stopped_; }
 
+  template <Query Q>
+  bool sees_all(const Q& query) const {
+    return query.filter.accepts_all() && !scene_.has_hidden_geometry();
+  }
+  Hit blank_hit(std::uint32_t number) const {
+    const std::uint32_t reference = first_reference_ + number;
+    return {0.0, scene_.id_of(reference), false, reference};
+  }
+
  private:
   const Scene& scene_;
   std::uint32_t first_reference_;

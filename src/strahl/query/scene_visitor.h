@@ -27,6 +27,16 @@ class SceneVisitor {
   const Scene& scene() const { return scene_; }
   void begin_ray() { cached_instance_ = kNoId; }
 
+  /// Whether every crossing counts for the query that lies within its interval.
+  template <Query Q>
+  bool sees_all(const Q& query) const {
+    return query.filter.accepts_all() && !scene_.has_hidden_geometry();
+  }
+  /// The hit of a reference, but for t and side.
+  Hit blank_hit(std::uint32_t reference) const {
+    return {0.0, scene_.id_of(reference), false, reference};
+  }
+
   /// Tests the reference against the world ray and offers what is hit. True stops the traversal.
   template <Query Q, class C>
   bool visit(std::uint32_t reference, const PreparedRay& world_ray, Q& query, C& counters) {

@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include <strahl/build/object_tree.h>
+#include <strahl/build/spatial_tree.h>
+#include <strahl/structures/wide_bvh/wide_bvh.h>
+#include <strahl/structures/wide_bvh/wide_layout.h>
+
+namespace strahl {
+namespace {
+
+/// Most bytes at a time per primitive: references, the binary tree, the choices of the collapse.
+std::uint64_t bytes_per_primitive(int width) {
+  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) +
+         Collapse::bytes(2, width);
+}
+
+int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
+  if (options.width == WideWidth::automatic) return kernel.best_width;
+  return options.width == WideWidth::sixteen ? 16 : 8;
+}
+
+bool are_floats(const TriangleVertices& t) {
+  const auto is_float = [](const Vec3d& v) { return Vec3d(Vec3f(v)) == v; };
+  return is_float(t.a) && is_float(t.b) && is_float(t.c);
+}
+
+/// Whether all things are triangles with float corners.
+bool has_float_corners(std::span<const PrimRef> refs, const PrimitiveSource& source) {
+  return std::all_of(refs.begin(), refs.end(), [&](const PrimRef& ref) {
+    TriangleVertices triangle;
+    return !source.triangle(ref.reference, triangle) || are_floats(triangle);
+  });
+}
+
+/// A binary tree down to single references.
+Tree build_binary(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& box,
+                  WideQuality quality, const BuildContext& context) {
+  if (quality == WideQuality::high) {
+    SpatialRules rules;
+    rules.max_depth = kWideMaxDepth;
+    return build_spatial_tree(source, std::move(refs), box, rules, context);
+  }
+  const int bins = quality == WideQuality::fast ? 16 : 32;
+  const auto splitter = make_binned_splitter(refs, bins, {1.0, 1.0});
+  return build_object_tree(*splitter, refs.size(), box, {{1.0, 1.0}, 1, kWideMaxDepth}, context);
+}
+
+}  // namespace
+
+OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
+  return {
+      option("quality", &WideBvhOptions::quality,
+             {{"fast", WideQuality::fast},
+              {"balanced", WideQuality::balanced},
+              {"high", WideQuality::high}},
+             "time spent on the tree"),
+      option("width", &WideBvhOptions::width,
+             {{"auto", WideWidth::automatic}, {"8", WideWidth::eight}, {"16", WideWidth::sixteen}},
+             "children of a node (auto: what suits the instruction set)"),
+      option("leaf_size", &WideBvhOptions::leaf_size, 0, static_cast<int>(kWideMaxLanes),
+             "most primitives in a block; 0: the width"),
+  };
+}
+
+WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
+    : kernel_(&wide_kernel_of_environment()) {
+  std::vector<PrimRef> refs = make_prim_refs(source, context);
+  if (refs.empty()) return;
+  const int width = width_of(options, *kernel_);
+  context.require_memory(refs.size() * bytes_per_primitive(width), "wide_bvh");
+  Aabb box;
+  for (const PrimRef& ref : refs) box.extend(ref.box);
+  const bool all_floats = has_float_corners(refs, source);
+  const WideFrame frame = make_wide_frame(box, all_floats);
+  CollapseRules rules;
+  rules.width = width;
+  rules.max_leaf = static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
+  const Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
+  const Collapse collapse(tree, rules, context);
+  report_.sah_cost = collapse.cost();
+  tree_ = lay_out_wide(tree, collapse, width, frame, all_floats && frame.is_identity(), source,
+                       context, report_);
+}
+
+void WideBvh::hash_into(Hash64& hash) const {
+  hash.add(tree_.root), hash.add(tree_.width);
+  const std::byte* data = tree_.arena.data();
+  for (std::uint64_t i = 0; i + 8 <= tree_.arena.size(); i += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, data + i, sizeof word);
+    hash.add(word);
+  }
+}
+
+}  // namespace strahl

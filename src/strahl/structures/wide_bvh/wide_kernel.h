@@ -1,0 +1,68 @@
+// structures/wide_bvh/wide_kernel.h - the compiled traversals, one set per instruction set.
+//
+// A kernel walks the tree and tests blocks in floats; what the float test cannot decide it hands to
+// `resolve`, which knows the scene and the query. So kernels are compiled once per instruction set,
+// not per query type or scene.
+// Thread safety: kernels are pure functions of their arguments.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <strahl/structures/wide_bvh/wide_ray.h>
+#include <strahl/structures/wide_bvh/wide_tree.h>
+
+namespace strahl {
+
+/// What a traversal does with lanes that are certainly hit. closest: keeps the nearest as a candidate;
+/// any: stops; each: trusts none, every possible lane is resolved.
+enum class WideMode { closest, any, each };
+inline constexpr std::size_t kWideModes = 3;
+
+struct WideCounts {
+  std::uint64_t nodes = 0, boxes = 0, leaves = 0, lanes = 0;
+};
+
+/// One traversal under way; shared by kernel and resolve.
+struct WideState {
+  float upper;  ///< lanes certainly behind it are not wanted
+  float lower;  ///< lanes certainly before it are better than all that is known
+  WideId candidate = 0;  ///< leaf of a certain hit, nearer than all resolved ones; 0: none
+  std::uint32_t candidate_lane = 0;
+  std::uint32_t candidate_reference = 0;
+  bool candidate_is_front = false;
+  bool is_found = false;  ///< any: a lane is certainly hit
+  WideCounts counts;
+
+  void* context = nullptr;
+  /// Decides these lanes (bits) of a leaf exactly, and the candidate if there is one; sets upper and
+  /// lower and clears the candidate. True stops the traversal.
+  bool (*resolve)(WideState& state, WideId leaf, std::uint32_t lanes) = nullptr;
+};
+
+using WideTraverse = void (*)(const WideTree& tree, const WideRay& ray, WideState& state);
+
+/// The traversals of one instruction set.
+struct WideKernel {
+  const char* isa = "";
+  /// Per mode, whether work is counted, and width 8 or 16.
+  WideTraverse traverse[kWideModes][2][2] = {};
+  int best_width = 8;  ///< what width=auto builds for it
+
+  WideTraverse find(WideMode mode, bool counts, int width) const {
+    return traverse[static_cast<std::size_t>(mode)][counts][width == 16];
+  }
+};
+
+/// Kernels of this build that this processor runs, best first; the last is "scalar".
+std::span<const WideKernel* const> wide_kernels();
+
+/// The kernel of that name, or the best for an empty one.
+/// Throws Error{usage} naming those there are.
+const WideKernel& wide_kernel(std::string_view isa);
+
+/// wide_kernel() of the environment variable STRAHL_ISA, read at each call.
+const WideKernel& wide_kernel_of_environment();
+
+}  // namespace strahl

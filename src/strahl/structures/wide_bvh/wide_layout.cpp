@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+
+#include <strahl/math/float_round.h>
+#include <strahl/structures/wide_bvh/wide_filter.h>
+#include <strahl/structures/wide_bvh/wide_layout.h>
+
+namespace strahl {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
+
+/// The octant of a slot: bit a set on the high side of axis a.
+unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot / (width / 8)); }
+
+double fit(const Vec3d& offset, unsigned octant) {
+  return ((octant & 1u) != 0 ? offset.x : -offset.x) + ((octant & 2u) != 0 ? offset.y : -offset.y) +
+         ((octant & 4u) != 0 ? offset.z : -offset.z);
+}
+
+class Layout {
+ public:
+  Layout(const Tree& tree, const Collapse& collapse, WideTree& out, const PrimitiveSource& source,
+         const BuildContext& context, BuildReport& report)
+      : tree_(tree), collapse_(collapse), out_(out), source_(source), context_(context),
+        report_(report) {}
+
+  void run() {
+    if (collapse_.is_block(0))
+      total_units_ = units(leaf_bytes(lanes_of_block(0)));
+    else
+      measure(0);
+    if (total_units_ > kWideMaxUnits)
+      throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
+    const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
+    context_.require_memory(bytes, "wide_bvh");
+    out_.arena = WideArena(bytes);
+    out_.root = collapse_.is_block(0) ? write_block(0, 0) : write_node(0, 0);
+    report_.bytes = bytes;
+  }
+
+ private:
+  using Lanes = std::array<std::uint32_t, kWideMaxLanes>;
+  struct Children {
+    std::array<std::uint32_t, kMaxWidth> node;
+    int count;
+    auto begin() const { return node.begin(); }
+    auto end() const { return node.begin() + count; }
+  };
+
+  Children children_of(std::uint32_t node) const {
+    Children children;
+    children.count = collapse_.children(node, children.node);
+    return children;
+  }
+
+  /// Nodes begin with a cache line.
+  template <class Count>
+  static Count aligned(Count unit) {
+    return (unit + 1) / 2 * 2;
+  }
+
+  void measure(std::uint32_t node) {
+    total_units_ = aligned(total_units_) + units(node_bytes(out_.width));
+    for (const bool blocks : {true, false})
+      for (const std::uint32_t child : children_of(node)) {
+        if (collapse_.is_block(child) != blocks) continue;
+        if (blocks)
+          total_units_ += units(leaf_bytes(lanes_of_block(child)));
+        else
+          measure(child);
+      }
+  }
+
+  std::byte* take(std::size_t bytes, std::uint32_t& unit) {
+    unit = next_unit_;
+    next_unit_ += static_cast<std::uint32_t>(units(bytes));
+    return out_.arena.data() + std::size_t{unit} * kWideUnit;
+  }
+
+  /// References of a block, ascending, each once: parts of one primitive may meet again.
+  std::span<const std::uint32_t> block_references(std::uint32_t node, Lanes& room) const {
+    const std::span<const std::uint32_t> all = collapse_.references(node);
+    std::copy(all.begin(), all.end(), room.begin());
+    const auto end = room.begin() + static_cast<std::ptrdiff_t>(all.size());
+    std::sort(room.begin(), end);
+    return {room.begin(), std::unique(room.begin(), end)};
+  }
+  std::size_t lanes_of_block(std::uint32_t node) const {
+    Lanes room;
+    return block_references(node, room).size();
+  }
+
+  WideId write_block(std::uint32_t node, std::uint64_t depth) {
+    Lanes room;
+    const std::span<const std::uint32_t> references = block_references(node, room);
+    const auto lanes = static_cast<std::uint32_t>(references.size());
+    std::uint32_t unit;
+    std::byte* block = take(leaf_bytes(lanes), unit);
+    std::array<LaneCorners, kWideMaxLanes> corners;
+    for (std::uint32_t i = 0; i < lanes; ++i) {
+      write_lane(block, lanes, i, references[i], corners[i]);
+      const_cast<std::uint32_t*>(reference_row(block, lanes))[i] = references[i];
+    }
+    const LeafBound bound = leaf_bound(std::span(corners).first(lanes));
+    std::memcpy(block, &bound, sizeof bound);
+    ++report_.nodes, ++report_.leaves, report_.references += lanes;
+    report_.depth = std::max(report_.depth, depth);
+    return kWideLeaf | unit << 4 | (lanes - 1);
+  }
+
+  void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane,
+                  std::uint32_t reference, LaneCorners& corners) {
+    TriangleVertices triangle;
+    const bool is_triangle = source_.triangle(reference, triangle);
+    if (is_triangle) corners = lane_corners(triangle, out_.frame);
+    const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+    const Vec3f stored[3] = {is_triangle ? corners.a : nan, is_triangle ? corners.b : nan,
+                             is_triangle ? corners.c : nan};
+    for (std::uint32_t row = 0; row < 9; ++row)
+      const_cast<float*>(corner_row(block, lanes, row))[lane] =
+          stored[row / 3][static_cast<int>(row % 3)];
+  }
+
+  WideId write_node(std::uint32_t node, std::uint64_t depth) {
+    if (report_.nodes % 4096 == 0)
+      context_.check(static_cast<double>(next_unit_) / static_cast<double>(total_units_),
+                     "laying out");
+    ++report_.nodes;
+    const Children children = children_of(node);
+    std::uint32_t unit;
+    next_unit_ = aligned(next_unit_);
+    std::byte* at = take(node_bytes(out_.width), unit);
+    std::array<int, kMaxWidth> slots;
+    place(node, children, slots);
+    write_boxes(at, children, slots);
+    auto* ids = const_cast<WideId*>(child_row(at, out_.width));
+    for (const bool blocks : {true, false})
+      for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i) {
+        const std::uint32_t child = children.node[i];
+        if (collapse_.is_block(child) != blocks) continue;
+        ids[slots[i]] = blocks ? write_block(child, depth + 1) : write_node(child, depth + 1);
+      }
+    return unit;
+  }
+
+  void place(std::uint32_t node, const Children& children, std::span<int> slots) const {
+    std::array<Vec3d, kMaxWidth> centers;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i)
+      centers[i] = tree_.nodes[children.node[i]].box.center();
+    assign_slots(std::span(centers).first(static_cast<std::size_t>(children.count)),
+                 tree_.nodes[node].box.center(), out_.width, slots);
+  }
+
+  void write_boxes(std::byte* at, const Children& children, std::span<const int> slots) const {
+    auto* planes = const_cast<float*>(plane_row(at, out_.width, 0));
+    std::fill_n(planes, 3 * out_.width, kInfinity);
+    std::fill_n(planes + 3 * out_.width, 3 * out_.width, -kInfinity);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i) {
+      const Aabb& box = tree_.nodes[children.node[i]].box;
+      const Vec3d lo = out_.frame.to_frame(box.lo), hi = out_.frame.to_frame(box.hi);
+      // to_frame() rounds by 2^-53 of its result; where it does, one float more is far enough.
+      const double off = out_.frame.is_identity() ? 0.0 : 0x1p-50 * out_.frame.reach;
+      for (int axis = 0; axis < 3; ++axis) {
+        planes[axis * out_.width + slots[i]] = float_below(lo[axis] - off);
+        planes[(axis + 3) * out_.width + slots[i]] = float_above(hi[axis] + off);
+      }
+    }
+  }
+
+  const Tree& tree_;
+  const Collapse& collapse_;
+  WideTree& out_;
+  const PrimitiveSource& source_;
+  const BuildContext& context_;
+  BuildReport& report_;
+  std::uint64_t total_units_ = 0;
+  std::uint32_t next_unit_ = 0;
+};
+
+}  // namespace
+
+void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
+                  std::span<int> slots) {
+  std::uint32_t free_slots = (1u << width) - 1, left = (1u << centers.size()) - 1;
+  while (left != 0) {
+    double best = -Aabb::kInf;
+    std::size_t best_child = 0;
+    int best_slot = -1;
+    for (std::size_t child = 0; child < centers.size(); ++child) {
+      if ((left >> child & 1u) == 0) continue;
+      for (int slot = 0; slot < width; ++slot) {
+        if ((free_slots >> slot & 1u) == 0) continue;
+        const double gain = fit(centers[child] - middle, octant_of(slot, width));
+        if (best_slot >= 0 && !(gain > best)) continue;
+        best = gain, best_child = child, best_slot = slot;
+      }
+    }
+    slots[best_child] = best_slot;
+    left &= ~(1u << best_child), free_slots &= ~(1u << best_slot);
+  }
+}
+
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
+                      bool has_exact_corners, const PrimitiveSource& source,
+                      const BuildContext& context, BuildReport& report) {
+  WideTree out;
+  out.width = width, out.frame = frame, out.has_exact_corners = has_exact_corners;
+  Layout(tree, collapse, out, source, context, report).run();
+  return out;
+}
+
+}  // namespace strahl

@@ -1,0 +1,25 @@
+// structures/wide_bvh/wide_layout.h - a collapsed tree written into the arena of a wide tree.
+#pragma once
+
+#include <strahl/build/build_report.h>
+#include <strahl/build/collapse.h>
+#include <strahl/geometry/primitive_source.h>
+#include <strahl/structures/wide_bvh/wide_tree.h>
+
+namespace strahl {
+
+/// The slot of each child of a node: greedily the pair of child and free slot that fit best, a slot
+/// fitting a child as far as the child lies on the slot's side of the node's middle.
+/// @param centers of the children
+void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
+                  std::span<int> slots);
+
+/// Writes nodes depth first, each followed by its blocks and then its inner children. Adds nodes,
+/// leaves, references, depth and bytes to the report.
+/// Throws Error{resource} above the memory limit or 4 GiB, Error{cancelled}.
+/// @param source whose things the references are
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
+                      bool has_exact_corners, const PrimitiveSource& source,
+                      const BuildContext& context, BuildReport& report);
+
+}  // namespace strahl

@@ -1,0 +1,130 @@
+// structures/wide_bvh/wide_leaf-inl.h - one ray against the triangles of one block, in floats with
+// bounded errors (wide_filter.h).
+//
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_LEAF_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_LEAF_INL_H_
+#undef STRAHL_WIDE_LEAF_INL_H_
+#else
+#define STRAHL_WIDE_LEAF_INL_H_
+#endif
+
+#include <strahl/structures/wide_bvh/wide_kernel.h>
+#include <strahl/structures/wide_bvh/wide_node-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+/// A ray's constants, and the tests of up to W lanes.
+template <int W>
+class LeafTest {
+ public:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  using V = typename L::V;
+
+  struct V3 {
+    V x, y, z;
+  };
+
+  /// Values of one register of lanes, made positive where the lane may be hit.
+  struct Values {
+    V u, v, w, t, det, error, t_error;  ///< errors are negative
+    V det_sign;
+    std::uint32_t possible;
+  };
+
+  explicit LeafTest(const WideRay& ray)
+      : org_(broadcast(ray.org)),
+        dir_(broadcast(ray.dir)),
+        slack_(hn::Set(D(), ray.org_slack)),
+        enter_(hn::Set(D(), ray.t_enter)),
+        enter_sure_(hn::Set(D(), ray.t_enter_sure)),
+        blur2_(ray.t_blur2) {}
+
+  /// Lanes part * kLanes and up that may be hit at or before `upper`.
+  HWY_INLINE void test(const std::byte* leaf, std::uint32_t lanes, int part, V upper,
+                       Values& r) const {
+    const float* row = corner_row(leaf, lanes, 0) + part * L::kLanes;
+    const V3 a = load(row, lanes), b = load(row + 3 * lanes, lanes), c = load(row + 6 * lanes, lanes);
+    const V3 s = minus(org_, a), e1 = minus(b, a), e2 = minus(c, a);
+    const V3 h = cross(dir_, e2), q = cross(s, e1);
+    const V det = dot(e1, h);
+    r.det_sign = hn::And(det, hn::SignBit(D()));
+    r.det = hn::Abs(det);
+    r.u = hn::Xor(dot(s, h), r.det_sign);
+    r.v = hn::Xor(dot(dir_, q), r.det_sign);
+    r.t = hn::Xor(dot(e2, q), r.det_sign);
+    r.w = hn::Sub(hn::Sub(r.det, r.u), r.v);
+    const auto* bound = reinterpret_cast<const float*>(leaf);
+    const V per_distance = hn::Set(D(), bound[0]);
+    const V constant = hn::MulAdd(slack_, per_distance, hn::Set(D(), bound[1]));
+    const V distance = hn::Max(hn::Max(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
+    r.error = hn::MulAdd(distance, per_distance, constant);
+    r.t_error = hn::Mul(r.error, hn::Set(D(), bound[2]));
+    const auto outside = hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)),
+                                hn::Lt(r.w, r.error));
+    const auto before = hn::Lt(hn::Sub(r.t, r.t_error), hn::Mul(enter_, r.det));
+    const auto missed = hn::Or(hn::Or(outside, before), is_behind(r, upper));
+    const std::uint32_t left = lanes - static_cast<std::uint32_t>(part * L::kLanes);
+    const std::uint32_t all = (2u << ((left < L::kLanes ? left : L::kLanes) - 1)) - 1;
+    r.possible = ~bits_of(D(), missed) & all;
+  }
+
+  /// Lanes certainly behind `upper`.
+  HWY_INLINE static auto is_behind(const Values& r, V upper) {
+    return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(upper, r.det));
+  }
+
+  /// Lanes that are certainly crossed, certainly behind t_min and certainly before `lower`.
+  HWY_INLINE std::uint32_t certain(const Values& r, V lower) const {
+    const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
+    const auto inside =
+        hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
+    const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+    const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
+    return bits_of(D(), hn::And(hn::And(inside, behind), before)) & r.possible;
+  }
+
+  /// Where certain lanes are hit.
+  struct Span {
+    alignas(64) float lower[L::kLanes];
+    alignas(64) float upper[L::kLanes];
+  };
+  HWY_INLINE void span(const Values& r, Span& span) const {
+    const V inverse = hn::Div(hn::Set(D(), 1.0f), r.det);
+    const V t = hn::Mul(r.t, inverse), e = hn::Mul(r.t_error, inverse);
+    const V blur = hn::Set(D(), blur2_);
+    hn::Store(hn::Sub(hn::Add(t, e), blur), D(), span.lower);
+    hn::Store(hn::Add(hn::Sub(t, e), blur), D(), span.upper);
+  }
+
+ private:
+  HWY_INLINE static V3 broadcast(const float* v) {
+    return {hn::Set(D(), v[0]), hn::Set(D(), v[1]), hn::Set(D(), v[2])};
+  }
+  HWY_INLINE static V3 load(const float* row, std::uint32_t lanes) {
+    return {hn::LoadU(D(), row), hn::LoadU(D(), row + lanes), hn::LoadU(D(), row + 2 * lanes)};
+  }
+  HWY_INLINE static V3 minus(const V3& a, const V3& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+  }
+  HWY_INLINE static V3 cross(const V3& a, const V3& b) {
+    return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+            hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+  }
+  HWY_INLINE static V dot(const V3& a, const V3& b) {
+    return hn::MulAdd(a.z, b.z, hn::MulAdd(a.x, b.x, hn::Mul(a.y, b.y)));
+  }
+
+  V3 org_, dir_;
+  V slack_, enter_, enter_sure_;
+  float blur2_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

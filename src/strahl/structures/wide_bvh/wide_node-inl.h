@@ -1,0 +1,108 @@
+// structures/wide_bvh/wide_node-inl.h - one ray against the boxes of one wide node.
+//
+// Source: slabs [KayKajiya1986]; all children in one or two registers as in [Wald2008]; the order of
+//   children by slot XOR signs as in [YlitieKarrasLaine2017].
+// Per-target code: included under foreach_target, once per instruction set.
+// Largest and smallest are taken of the floats' bits as integers: entries are compared with
+// t_enter >= 0 and exits matter only while >= 0, where both orders agree, and integers have the
+// shorter latency.
+#if defined(STRAHL_WIDE_NODE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_NODE_INL_H_
+#undef STRAHL_WIDE_NODE_INL_H_
+#else
+#define STRAHL_WIDE_NODE_INL_H_
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <strahl/structures/wide_bvh/wide_ray.h>
+#include <strahl/structures/wide_bvh/wide_tree.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Floats of a node's row, in one or more registers of kLanes.
+template <int W>
+struct WideLanes {
+  using D = hn::CappedTag<float, static_cast<std::size_t>(W)>;
+  using DI = hn::RebindToSigned<D>;
+  using V = hn::Vec<D>;
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+  static constexpr int kParts = W / kLanes;
+};
+
+template <class D, class M>
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+  std::uint8_t bytes[8];  // StoreMaskBits may write eight
+  hn::StoreMaskBits(d, mask, bytes);
+  if (hn::MaxLanes(d) <= 8) return bytes[0];
+  return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+}
+
+/// A ray's constants in registers.
+template <int W>
+class NodeTest {
+ public:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  using V = typename L::V;
+
+  explicit NodeTest(const WideRay& ray) : enter_(hn::Set(D(), ray.t_enter)) {
+    rx_ = hn::Set(D(), ray.rcp[0]), ry_ = hn::Set(D(), ray.rcp[1]), rz_ = hn::Set(D(), ray.rcp[2]);
+    nx_ = hn::Set(D(), ray.near[0]), ny_ = hn::Set(D(), ray.near[1]);
+    nz_ = hn::Set(D(), ray.near[2]);
+    fx_ = hn::Set(D(), ray.far[0]), fy_ = hn::Set(D(), ray.far[1]), fz_ = hn::Set(D(), ray.far[2]);
+    for (int a = 0; a < 3; ++a) {
+      const std::ptrdiff_t low = a * W, high = (a + 3) * W;
+      const bool down = (ray.signs >> a & 1u) != 0;
+      near_row_[a] = down ? high : low, far_row_[a] = down ? low : high;
+    }
+  }
+
+  /// Which children may be hit at or before `upper`, and where the ray enters them.
+  struct Hits {
+    std::uint32_t bits;
+    V enter[L::kParts];
+  };
+  /// By reference, as compilers copy what is returned.
+  HWY_INLINE void test(const std::byte* node, V upper, Hits& hits) const {
+    const auto* planes = reinterpret_cast<const float*>(node);
+    hits.bits = 0;
+    for (int part = 0; part < L::kParts; ++part) {
+      const float* at = planes + part * L::kLanes;
+      const V t0 = largest(plane(at + near_row_[0], rx_, nx_), plane(at + near_row_[1], ry_, ny_));
+      const V t1 = largest(plane(at + near_row_[2], rz_, nz_), enter_);
+      const V u0 = least(plane(at + far_row_[0], rx_, fx_), plane(at + far_row_[1], ry_, fy_));
+      const V u1 = least(plane(at + far_row_[2], rz_, fz_), upper);
+      const V first = largest(t0, t1), last = least(u0, u1);
+      hits.enter[part] = first;
+      hits.bits |= bits_of(D(), hn::Le(first, last)) << (part * L::kLanes);
+    }
+  }
+
+ private:
+  HWY_INLINE static V plane(const float* row, V rcp, V constant) {
+    return hn::MulAdd(hn::LoadU(D(), row), rcp, constant);
+  }
+  HWY_INLINE static V largest(V a, V b) {
+    typename L::DI di;
+    return hn::BitCast(D(), hn::Max(hn::BitCast(di, a), hn::BitCast(di, b)));
+  }
+  HWY_INLINE static V least(V a, V b) {
+    typename L::DI di;
+    return hn::BitCast(D(), hn::Min(hn::BitCast(di, a), hn::BitCast(di, b)));
+  }
+
+  V rx_, ry_, rz_, nx_, ny_, nz_, fx_, fy_, fz_, enter_;
+  std::ptrdiff_t near_row_[3], far_row_[3];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,120 @@
+// structures/wide_bvh/wide_stack-inl.h - the nodes that wait, nearest on top.
+//
+// Entries and ids are kept in two arrays, so that the children of a node are put into their order by
+// one permutation of each register and stored at once, whatever their number; what is stored beyond
+// them is overwritten by the next. When a hit is found, all that lies behind it is dropped, so what
+// is taken from the stack need not be compared.
+// The number of those waiting is the caller's variable: beside the arrays it would live in memory.
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_STACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_STACK_INL_H_
+#undef STRAHL_WIDE_STACK_INL_H_
+#else
+#define STRAHL_WIDE_STACK_INL_H_
+#endif
+
+#include <limits>
+
+#include <strahl/structures/wide_bvh/wide_node-inl.h>
+#include <strahl/structures/wide_bvh/wide_order.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+template <int W>
+class WideStack {
+ public:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  using DU = hn::RebindToUnsigned<D>;
+  using V = typename L::V;
+
+  HWY_INLINE WideId at(std::size_t i) const { return ids_[i]; }
+
+  /// Pushes all children hit but the nearest, which is returned. At least one must be hit.
+  /// @param order the ray's signs, for 16 slots times 2
+  HWY_INLINE WideId push(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                         std::uint32_t order, std::size_t& count) {
+    if constexpr (W == 8 && L::kParts == 1)
+      return push_permuted(children, hits, order, count);
+    else
+      return push_one_by_one(children, hits, order, count);
+  }
+
+  /// Drops what is entered behind `upper`. Returns how many are left of `count`.
+  HWY_INLINE std::size_t drop_behind(float upper, std::size_t count) {
+    const V limit = hn::Set(D(), upper);
+    hn::StoreU(hn::Set(D(), kBehindAll), D(), enter_ + count);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(L::kLanes)) {
+      const V enter = hn::LoadU(D(), enter_ + i);
+      const auto ids = hn::LoadU(DU(), ids_ + i);
+      const std::uint32_t keep = bits_of(D(), hn::Le(enter, limit));
+      // Lanes beyond those kept are written into what has been read already.
+      if constexpr (W == 8 && L::kParts == 1) {
+        const auto index = lanes_from(wide_slots(keep, kAscending));
+        hn::StoreU(permuted(enter, index), D(), enter_ + left);
+        hn::StoreU(permuted(ids, index), DU(), ids_ + left);
+      } else {
+        const auto mask = hn::Le(enter, limit);
+        hn::StoreU(hn::Compress(enter, mask), D(), enter_ + left);
+        hn::StoreU(hn::Compress(ids, hn::RebindMask(DU(), mask)), DU(), ids_ + left);
+      }
+      left += static_cast<std::size_t>(__builtin_popcount(keep));
+    }
+    return left;
+  }
+
+ private:
+  static constexpr std::uint32_t kAscending = 7;  ///< the order that lists slots from the lowest
+
+  HWY_INLINE static hn::Vec<DU> lanes_from(const std::uint64_t& bytes) {
+    const hn::Rebind<std::uint8_t, DU> d8;
+    return hn::PromoteTo(DU(), hn::LoadU(d8, reinterpret_cast<const std::uint8_t*>(&bytes)));
+  }
+  template <class Lanes>
+  HWY_INLINE static Lanes permuted(Lanes v, hn::Vec<DU> index) {
+    const hn::DFromV<Lanes> d;
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, index));
+  }
+
+  HWY_INLINE WideId push_permuted(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                                  std::uint32_t order, std::size_t& count) {
+    const std::uint64_t& slots = wide_slots(hits.bits, order);
+    const auto index = lanes_from(slots);
+    hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
+    hn::StoreU(permuted(hn::LoadU(DU(), children), index), DU(), ids_ + count);
+    count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
+    return children[slots >> 56];
+  }
+
+  HWY_INLINE WideId push_one_by_one(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                                    std::uint32_t order, std::size_t& count) {
+    alignas(64) float enter[W];
+    for (int part = 0; part < L::kParts; ++part)
+      hn::StoreU(hits.enter[part], D(), enter + part * L::kLanes);
+    std::uint32_t ordered = visiting_order<W>(hits.bits, order);
+    const auto first = static_cast<std::uint32_t>(__builtin_ctz(ordered)) ^ order;
+    ordered &= ordered - 1;
+    while (ordered != 0) {
+      const auto last = 31u - static_cast<std::uint32_t>(__builtin_clz(ordered));
+      ordered ^= 1u << last;
+      enter_[count] = enter[last ^ order], ids_[count] = children[last ^ order];
+      ++count;
+    }
+    return children[first];
+  }
+
+  static constexpr float kBehindAll = std::numeric_limits<float>::infinity();
+  static constexpr std::size_t kRoom = std::size_t{kWideMaxDepth} * (W - 1) + 2 * W;
+
+  float enter_[kRoom];
+  WideId ids_[kRoom];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,104 @@
+// structures/wide_bvh/wide_tree.h - nodes and leaf blocks of the wide tree, as the kernels read them.
+//
+// Layout: one arena of 32-byte units. A wide node of W = 8 or 16 slots is six rows of W floats (low
+//   x, y, z, then high x, y, z) and a row of W child ids, 28 W bytes. A leaf block of n triangles is
+//   a LeafBound, nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n
+//   references, 16 + 40 n bytes. Rows are read with full vectors from their unaligned beginning;
+//   lanes beyond n are masked out, and the arena ends in slack for them.
+// Slots: a ray with sign bits s (bit a set where it runs down axis a) visits the children of a node
+//   in ascending order of slot XOR s (of slot XOR 2 s for W = 16), so slots are filled by position.
+// Numbers are those of the tree's frame (wide_frame.h). Where all things are triangles whose corners
+//   are floats of the frame (has_exact_corners), the block holds the very corners of the scene.
+// Lanes: a thing that is no triangle has NaN corners. Every comparison of the kernels is written so
+//   that NaN means "may be hit", so such a lane always goes to the exact test.
+// Invariants: boxes enclose the things below them, rounded outward; an empty slot's box is
+//   [+inf, -inf], which no ray enters.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include <strahl/structures/wide_bvh/wide_frame.h>
+
+namespace strahl {
+
+/// Bits 31: leaf. Inner: the other bits are the node's unit. Leaf: bits 4..30 are the block's unit,
+/// bits 0..3 the number of lanes less one.
+using WideId = std::uint32_t;
+
+inline constexpr WideId kWideLeaf = 0x80000000u;
+inline constexpr std::size_t kWideUnit = 32;
+inline constexpr std::uint64_t kWideMaxUnits = std::uint64_t{1} << 27;  ///< 4 GiB
+inline constexpr std::uint32_t kWideMaxLanes = 16;
+inline constexpr int kWideMaxDepth = 64;                  ///< inner nodes on a path
+inline constexpr std::size_t kWideSlack = 128;  ///< bytes that may be read beyond the last block
+
+constexpr bool is_leaf(WideId id) { return (id & kWideLeaf) != 0; }
+constexpr std::uint32_t unit_of(WideId id) {
+  return is_leaf(id) ? (id & ~kWideLeaf) >> 4 : id;
+}
+constexpr std::uint32_t lanes_of(WideId leaf) { return (leaf & 15u) + 1; }
+
+/// Error bounds of the hit filter for one block; see wide_filter.h.
+struct LeafBound {
+  float per_distance = 0;  ///< of edge values, per unit of the largest |a - org| component; negative
+  float constant = 0;      ///< of edge values, whatever the distance; negative
+  float to_t = 0;          ///< from edge values to t
+  float unused = 0;
+};
+
+constexpr std::size_t node_bytes(int width) { return 28u * static_cast<std::size_t>(width); }
+constexpr std::size_t leaf_bytes(std::size_t lanes) { return sizeof(LeafBound) + 40 * lanes; }
+constexpr std::uint64_t units(std::size_t bytes) { return (bytes + kWideUnit - 1) / kWideUnit; }
+
+/// Row r of a node: low x, y, z, high x, y, z.
+inline const float* plane_row(const std::byte* node, int width, int row) {
+  return reinterpret_cast<const float*>(node) + row * width;
+}
+inline const WideId* child_row(const std::byte* node, int width) {
+  return reinterpret_cast<const WideId*>(node) + 6 * width;
+}
+/// Row r of a block: a.x, a.y, a.z, b.x, ...
+inline const float* corner_row(const std::byte* leaf, std::uint32_t lanes, std::uint32_t row) {
+  return reinterpret_cast<const float*>(leaf + sizeof(LeafBound)) + row * lanes;
+}
+inline const std::uint32_t* reference_row(const std::byte* leaf, std::uint32_t lanes) {
+  return reinterpret_cast<const std::uint32_t*>(leaf + sizeof(LeafBound)) + 9 * lanes;
+}
+
+/// Zeroed memory whose beginning is aligned to cache lines; large ones lie in large pages where the
+/// system has them.
+class WideArena {
+ public:
+  WideArena() = default;
+  explicit WideArena(std::uint64_t bytes);
+  std::byte* data() { return data_.get(); }
+  const std::byte* data() const { return data_.get(); }
+  std::uint64_t size() const { return size_; }
+
+ private:
+  struct Free {
+    void operator()(std::byte* p) const { std::free(p); }
+  };
+  std::unique_ptr<std::byte, Free> data_;
+  std::uint64_t size_ = 0;
+};
+
+/// All that a kernel needs of a tree. Empty when the arena is.
+struct WideTree {
+  WideArena arena;
+  WideId root = 0;
+  int width = 8;
+  bool has_exact_corners = false;
+  WideFrame frame;
+
+  bool is_empty() const { return arena.size() == 0; }
+  const std::byte* at(WideId id) const {
+    return arena.data() + std::size_t{unit_of(id)} * kWideUnit;
+  }
+};
+
+}  // namespace strahl

@@ -1,0 +1,87 @@
+// wide_bvh with every instruction set of the machine and both widths, against brute force on the
+// adversarial scenes and against bvh with many rays on larger ones: the same bits.
+#include <cstdlib>
+#include <tests/conformance/oracle.h>
+#include <tests/conformance/scenes.h>
+
+#include <gtest/gtest.h>
+
+#include <strahl/base/error.h>
+#include <strahl/io/load.h>
+#include <strahl/structures/wide_bvh/wide_kernel.h>
+
+namespace strahl::test {
+namespace {
+
+const std::size_t kRays = is_full_run() ? 3000 : 170;
+const std::size_t kManyRays = is_full_run() ? 1'000'000 : 20'000;
+
+/// Forces an instruction set for structures built during its life.
+class ForcedIsa {
+ public:
+  explicit ForcedIsa(const char* isa) { ::setenv("STRAHL_ISA", isa, 1); }
+  ~ForcedIsa() { ::unsetenv("STRAHL_ISA"); }
+  ForcedIsa(const ForcedIsa&) = delete;
+  ForcedIsa& operator=(const ForcedIsa&) = delete;
+};
+
+std::vector<std::string> isas() {
+  std::vector<std::string> names;
+  for (const WideKernel* kernel : wide_kernels()) names.emplace_back(kernel->isa);
+  return names;
+}
+
+class WideKernels : public testing::TestWithParam<std::string> {};
+
+TEST_P(WideKernels, AnswerLikeBruteForceWithEitherWidth) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const NamedScene& named : adversarial_scenes()) {
+    const Expected expected = expected_answers(scene_of(named), kRays, 5);
+    for (const char* spec : {"wide_bvh:width=8", "wide_bvh:width=16"})
+      ASSERT_EQ(first_difference(scene_of(named), spec, expected), "") << named.name << ' ' << spec;
+  }
+}
+
+/// Rays at corners, along edges, in planes, from surfaces and from afar, too many for brute force.
+TEST_P(WideKernels, AnswerLikeBvhOnLargeScenes) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:5", "gen:soup:20000", "gen:terrain:64"}) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    const RaySet set = adversarial_rays(*scene, kManyRays, 77);
+    const auto bvh = build(scene, "bvh");
+    std::vector<Hit> expected(set.rays.size()), got(set.rays.size());
+    std::vector<std::uint8_t> any(set.rays.size());
+    bvh->closest_hit(set.batch(false), expected);
+    for (const char* spec : {"wide_bvh:width=8", "wide_bvh:width=16"}) {
+      const auto wide = build(scene, spec);
+      wide->closest_hit(set.batch(false), got);
+      wide->any_hit(set.batch(false), any);
+      for (std::size_t i = 0; i < got.size(); ++i) {
+        ASSERT_TRUE(have_same_bits(got[i], expected[i])) << name << ' ' << spec << " ray " << i;
+        ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << name << ' ' << spec << " ray " << i;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isa, WideKernels, testing::ValuesIn(isas()),
+                         [](const testing::TestParamInfo<std::string>& i) { return i.param; });
+
+TEST(WideKernels, UnknownInstructionSetIsAnErrorThatNamesTheKnownOnes) {
+  const ForcedIsa forced("mmx");
+  try {
+    build(scene_of(adversarial_scenes()[1]), "wide_bvh");
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::usage);
+    EXPECT_NE(std::string(error.what()).find("scalar"), std::string::npos) << error.what();
+  }
+}
+
+TEST(WideKernels, TheScalarOneIsAlwaysThere) {
+  ASSERT_FALSE(wide_kernels().empty());
+  EXPECT_STREQ(wide_kernels().back()->isa, "scalar");
+}
+
+}  // namespace
+}  // namespace strahl::test
