@@ -13,8 +13,7 @@ namespace {
 
 /// Most bytes at a time per primitive: references, the binary tree, the choices of the collapse.
 std::uint64_t bytes_per_primitive(int width) {
-  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) +
-         Collapse::bytes(2, width);
+  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) + Collapse::bytes(2, width);
 }
 
 int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
@@ -77,7 +76,8 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   const WideFrame frame = make_wide_frame(box, all_floats);
   CollapseRules rules;
   rules.width = width;
-  rules.max_leaf = static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
+  rules.max_leaf =
+      static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
   const Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
   const Collapse collapse(tree, rules, context);
   report_.sah_cost = collapse.cost();

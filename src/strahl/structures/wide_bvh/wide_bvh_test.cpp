@@ -112,10 +112,12 @@ TEST(WideBvh, ValidateSeesBrokenBoxes) {
   EXPECT_EQ(verdict([](WideBvhBreaker& b) {
               float& side = b.planes(b.tree.root, 3)[b.used_slot(b.tree.root)];
               side = std::nextafter(side, -9.0f);
-            }).find("wide_bvh: "), 0u);
+            }).find("wide_bvh: "),
+            0u);
   EXPECT_EQ(verdict([](WideBvhBreaker& b) {
               b.planes(b.tree.root, 0)[b.used_slot(b.tree.root)] = std::nanf("");
-            }).find("wide_bvh: "), 0u);
+            }).find("wide_bvh: "),
+            0u);
 }
 
 TEST(WideBvh, ValidateSeesBrokenBlocks) {
@@ -209,7 +211,8 @@ TEST(WideOrder, PutsTheBitsOfSlotsIntoARaysOrder) {
 
 TEST(WideOrder, FillsTheSlotsOfTheCorners) {
   std::vector<Vec3d> centers;
-  for (int i = 0; i < 8; ++i) centers.push_back({i & 1 ? 1. : 0., i & 2 ? 1. : 0., i & 4 ? 1. : 0.});
+  for (int i = 0; i < 8; ++i)
+    centers.push_back({i & 1 ? 1. : 0., i & 2 ? 1. : 0., i & 4 ? 1. : 0.});
   int slots[8];
   assign_slots(centers, {0.5, 0.5, 0.5}, 8, slots);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(slots[i], i);
@@ -221,9 +224,9 @@ TEST(WideOrder, FillsTheSlotsOfTheCorners) {
 TEST(WideFrame, KeepsSuitedScenesOfFloatsAndMovesOthers) {
   EXPECT_TRUE(make_wide_frame({{-1, -1, -1}, {1, 2, 1}}, true).is_identity());
   EXPECT_FALSE(make_wide_frame({{-1, -1, -1}, {1, 2, 1}}, false).is_identity());
-  for (const Aabb& box : {Aabb{{1e6, 1e6, 1e6}, {1e6 + 1, 1e6 + 2, 1e6 + 1}},
-                          Aabb{{-1e-30, 0, 0}, {1e-30, 1e-30, 0}},
-                          Aabb{{-1e50, 0, 0}, {1e60, 1, 1}}, Aabb{{5, 5, 5}, {5, 5, 5}}}) {
+  for (const Aabb& box :
+       {Aabb{{1e6, 1e6, 1e6}, {1e6 + 1, 1e6 + 2, 1e6 + 1}}, Aabb{{-1e-30, 0, 0}, {1e-30, 1e-30, 0}},
+        Aabb{{-1e50, 0, 0}, {1e60, 1, 1}}, Aabb{{5, 5, 5}, {5, 5, 5}}}) {
     const WideFrame frame = make_wide_frame(box, true);
     EXPECT_FALSE(frame.is_identity());
     EXPECT_LE(norm_max(frame.to_frame(box.lo)), frame.reach);

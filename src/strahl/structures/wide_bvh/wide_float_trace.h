@@ -1,8 +1,8 @@
-// structures/wide_bvh/wide_float_trace.h - the same as wide_trace.h for what most batches hold: float
-// rays without filters, for the first or any hit in a tree that keeps exact corners.
+// structures/wide_bvh/wide_float_trace.h - the same as wide_trace.h for what most batches hold:
+// float rays without filters, for the first or any hit in a tree that keeps exact corners.
 //
-// The ray is prepared in floats, and doubles are made only for the t of the hit and for what the kernel
-// cannot decide, so that a ray costs little more than its traversal.
+// The ray is prepared in floats, and doubles are made only for the t of the hit and for what the
+// kernel cannot decide, so that a ray costs little more than its traversal.
 #pragma once
 
 #include <optional>
@@ -67,9 +67,9 @@ class WideFloatTrace {
   static bool resolve(WideState& state, WideId leaf, std::uint32_t lanes) {
     auto& self = *static_cast<WideFloatTrace*>(state.context);
     if (!self.slow_)
-      self.slow_.emplace(Ray{Vec3d(self.org_), Vec3d(self.dir_), double{self.t_min_},
-                             double{self.t_max_}},
-                         self.prims_.scene().world_frame());
+      self.slow_.emplace(
+          Ray{Vec3d(self.org_), Vec3d(self.dir_), double{self.t_min_}, double{self.t_max_}},
+          self.prims_.scene().world_frame());
     return self.decide(state, leaf, lanes);
   }
 
