@@ -143,7 +143,24 @@ double triangle_nanoseconds(const Workload& work) {
   return median(turns);
 }
 
-void print_costs(const std::string& name, const std::vector<TriangleVertices>& triangles) {
+/// What one part says of one kind.
+struct Cost {
+  double bytes, fit, B, ratio, share, T;
+};
+using Costs = std::vector<std::vector<Cost>>;  ///< per kind, per part
+
+void print_cost(BoundingVolumeKind kind, const Cost& c) {
+  std::printf("| %s | %.0f | %.1f | %.1f | %.2f | %.3f | %.1f |\n",
+              std::string(info_of(kind).name).c_str(), c.bytes, c.fit, c.B, c.ratio, c.share, c.T);
+}
+
+void print_heading(const char* text) {
+  std::printf("\n%s\n\n| kind | bytes | fit us | B ns | B/aabb | m/n | T ns |\n", text);
+  std::printf("|---|---|---|---|---|---|---|\n");
+}
+
+void print_costs(const std::string& name, const std::vector<TriangleVertices>& triangles,
+                 Costs& costs) {
   const Workload work(triangles);
   std::vector<std::unique_ptr<Row>> rows;
   for (const BoundingVolumeInfo& info : kBoundingVolumes)
@@ -153,16 +170,29 @@ void print_costs(const std::string& name, const std::vector<TriangleVertices>& t
   for (int turn = 0; turn < kTurns; ++turn)
     for (const auto& row : rows) row->turn();
   const double I = triangle_nanoseconds(work);
-  std::printf("\n%s, groups of %zu triangles, I = %.1f ns\n", name.c_str(), kGroup, I);
-  std::printf(
-      "| kind | bytes | fit us | B ns | B/aabb | m/n | T ns |\n|---|---|---|---|---|---|---|\n");
+  print_heading((name + ", I = " + std::to_string(I) + " ns").c_str());
   const double box = median(rows[0]->nanoseconds);
-  for (const auto& row : rows) {
-    const double B = median(row->nanoseconds);
-    const double share = static_cast<double>(row->passed) / static_cast<double>(row->tests);
-    std::printf("| %s | %zu | %.1f | %.1f | %.2f | %.3f | %.1f |\n",
-                std::string(info_of(row->kind).name).c_str(), row->bytes, row->fit_microseconds, B,
-                B / box, share, B + share * kGroup * I);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Row& row = *rows[k];
+    const double B = median(row.nanoseconds);
+    const double share = static_cast<double>(row.passed) / static_cast<double>(row.tests);
+    costs[k].push_back({static_cast<double>(row.bytes), row.fit_microseconds, B, B / box, share,
+                        B + share * kGroup * I});
+    print_cost(row.kind, costs[k].back());
+  }
+}
+
+void print_summary(const Costs& costs) {
+  print_heading("medians over the parts");
+  for (std::size_t k = 0; k < costs.size(); ++k) {
+    const auto middle = [&](double Cost::*member) {
+      std::vector<double> values;
+      for (const Cost& c : costs[k]) values.push_back(c.*member);
+      return median(values);
+    };
+    print_cost(kBoundingVolumes[k].kind,
+               {middle(&Cost::bytes), middle(&Cost::fit), middle(&Cost::B), middle(&Cost::ratio),
+                middle(&Cost::share), middle(&Cost::T)});
   }
 }
 
@@ -205,6 +235,8 @@ int main(int argc, char** argv) {
     loaded.push_back(triangles_of(folder + "/" + kParts[i]));
     print_sizes(kParts[i], loaded.back());
   }
-  for (std::size_t i = 0; i < parts; ++i) print_costs(kParts[i], loaded[i]);
+  Costs costs(kBoundingVolumes.size());
+  for (std::size_t i = 0; i < parts; ++i) print_costs(kParts[i], loaded[i], costs);
+  print_summary(costs);
   return 0;
 }
