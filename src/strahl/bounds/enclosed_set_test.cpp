@@ -118,6 +118,42 @@ TEST(EnclosedSet, GoesAroundCones) {
   }
 }
 
+/// Canonical hits lie off a cone by rounding that grows as it gets flatter. Where the polygons
+/// touch the rims nothing but the inflation, and the box of the flattest, keeps them inside.
+TEST(EnclosedSet, HoldsTheHitsOnCones) {
+  Rng rng(4);
+  std::size_t hits = 0;
+  for (int round = 0; round < 600; ++round) {
+    const double r0 = rng.uniform(), r1 = rng.uniform();
+    const Vec3d base = random_point(rng), axis = unit(random_point(rng));
+    const Cone cone{base, r0, base + std::ldexp(std::abs(r1 - r0), -round % 24) * axis, r1};
+    EnclosedSet set;
+    set.add(cone);
+    const Vec3d span = cone.apex - cone.base;
+    const Basis basis(span);
+    for (int i = 0; i < 24; ++i) {
+      const double angle = (i + 0.5) * std::numbers::pi / 12, part = i % 3 * 0.5;
+      const Vec3d out = std::cos(angle) * basis.u + std::sin(angle) * basis.v;
+      // Across the surface, and across the rim.
+      const Vec3d n = i % 2 == 0 ? unit(length(span) * out - (r1 - r0) * basis.w) : out;
+      const Vec3d slope = unit(span + (r1 - r0) * out), side = cross(basis.w, out);
+      const Vec3d target = base + part * span + (r0 + part * (r1 - r0)) * out;
+      const Vec3d dir = i % 4 < 2 ? random_point(rng) : slope + rng.uniform(-1, 1) * side;
+      const Vec3d org = target - dir;
+      const CurvedHits tied = tie_to_box(intersect(cone, org, dir), org, dir, bounds(cone));
+      for (int h = 0; h < tied.count; ++h) {
+        const double t = tied.hit[static_cast<std::size_t>(h)].t;
+        long double reach = 0.0L;
+        for (int k = 0; k < 3; ++k)
+          reach += static_cast<long double>(n[k]) * (org[k] + static_cast<long double>(t) * dir[k]);
+        EXPECT_LE(static_cast<double>(reach - set.support(n)), 0x1p-44) << "flat " << round % 24;
+        ++hits;
+      }
+    }
+  }
+  EXPECT_GT(hits, 5000u);
+}
+
 TEST(EnclosedSet, PlacesWhatLiesUnderInstances) {
   SceneData data;
   data.geometries.resize(2);

@@ -27,6 +27,19 @@ std::vector<Vec3d> turned_box(const Vec3d& half) {
   return corners;
 }
 
+TEST(SlabRay, CutsNothingByNaN) {
+  const SlabRay within(0.0, 0.0, 0.0);  // runs in both planes
+  for (const Interval& cut :
+       {clip_to_slab(within, 0.0, 0.0, {1, 2}), clip_to_half_space(within, 0.0, {1, 2})}) {
+    EXPECT_EQ(cut.t_enter, 1.0);
+    EXPECT_EQ(cut.t_exit, 2.0);
+  }
+  const Interval beside = clip_to_slab(within, 1.0, 2.0, {1, 2});
+  EXPECT_GT(beside.t_enter, beside.t_exit);
+  const Interval above = clip_to_half_space(within, -1.0, {1, 2});
+  EXPECT_GT(above.t_enter, above.t_exit);
+}
+
 TEST(SphereVolume, AroundASphereIsThatSphere) {
   EnclosedSet set;
   set.add(Sphere{{1, 2, 3}, 0.5});

@@ -158,7 +158,8 @@ TYPED_TEST(VolumeRays, KeepsEveryHitOnCurvedPrimitives) {
 
 /// Not only safe, but sharp: the interval starts and ends where the volume does.
 TYPED_TEST(VolumeRays, LetsPassNoMoreThanTheVolume) {
-  if (TypeParam::kKind == BoundingVolumeKind::shell) GTEST_SKIP() << "has a hole: see shell_test";
+  // A shell has a hole, and its sector is approached from outside only: see kinds_test.
+  constexpr bool kIsSharp = TypeParam::kKind != BoundingVolumeKind::shell;
   Rng rng(17);
   for (const PointSet& set : grid_sets()) {
     const EnclosedSet enclosed = set.enclosed();
@@ -178,7 +179,7 @@ TYPED_TEST(VolumeRays, LetsPassNoMoreThanTheVolume) {
       const double thin = 1e-5;
       EXPECT_FALSE(v.contains(at(span.t_enter - thin))) << set.name;
       EXPECT_FALSE(v.contains(at(span.t_exit + thin))) << set.name;
-      if (span.t_exit - span.t_enter < 2 * thin) continue;
+      if (!kIsSharp || span.t_exit - span.t_enter < 2 * thin) continue;
       EXPECT_TRUE(v.contains(at(span.t_enter + thin))) << set.name;
       EXPECT_TRUE(v.contains(at(span.t_exit - thin))) << set.name;
     }
