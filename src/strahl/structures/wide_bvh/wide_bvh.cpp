@@ -13,8 +13,7 @@ namespace {
 
 /// Most bytes at a time per primitive: references, the binary tree, the choices of the collapse.
 std::uint64_t bytes_per_primitive(int width) {
-  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) +
-         Collapse::bytes(2, width);
+  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) + Collapse::bytes(2, width);
 }
 
 int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
@@ -74,10 +73,11 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   Aabb box;
   for (const PrimRef& ref : refs) box.extend(ref.box);
   const bool all_floats = has_float_corners(refs, source);
-  const WideFrame frame = make_wide_frame(box, all_floats);
+  const WideFrame frame = make_wide_frame(box);
   CollapseRules rules;
   rules.width = width;
-  rules.max_leaf = static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
+  rules.max_leaf =
+      static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
   const Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
   const Collapse collapse(tree, rules, context);
   report_.sah_cost = collapse.cost();

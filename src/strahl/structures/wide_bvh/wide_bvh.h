@@ -4,7 +4,8 @@
 // Source: wide nodes [Wald2008], collapse [YlitieKarrasLaine2017], builders as in build/.
 // Layout: wide_tree.h. Traversal: wide_traverse-inl.h, one kernel per instruction set.
 // Invariants: every primitive that can be hit is in a block; boxes enclose what is below them.
-// Why the answers are exact: the float tests of boxes (wide_ray.h) and triangles (wide_filter.h) never
+// Why the answers are exact: the float tests of boxes (wide_ray.h) and triangles (wide_filter.h)
+// never
 //   refuse what the exact test accepts; a lane counts as hit without it only where its bounds prove
 //   it, and the t of a hit is always the canonical one.
 // Thread safety: const methods are safe from any number of threads.
@@ -58,7 +59,7 @@ class WideBvh {
   }
 
   /// Whether float rays without filters may be traced by a float_trace() of this structure.
-  bool traces_floats() const { return tree_.has_exact_corners && !tree_.is_empty(); }
+  bool traces_floats() const { return tree_.frame.is_identity() && !tree_.is_empty(); }
   template <class Q, class Prims, class C>
   auto float_trace(Prims& prims, C& counters) const {
     return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, prims, counters);

@@ -1,35 +1,39 @@
-// structures/wide_bvh/wide_filter.h - what the float test of a block of triangles may be trusted with.
+// structures/wide_bvh/wide_filter.h - what the float test of a block of triangles may be trusted
+// with.
 //
 // The kernel evaluates Moeller and Trumbore's products [Moeller1997] in floats for each lane:
 //   s = o - a, e1 = b - a, e2 = c - a, h = d x e2, q = s x e1,
 //   det = e1 . h, U = s . h, V = d . q, T = e2 . q, made positive by the sign of det;
 //   the line crosses where U, V, W = det - U - V >= 0, at t = T / det.
-// It must never refuse a lane that the exact test (geometry/triangle.h) accepts, and may call a lane
-// certain only if the exact test accepts it and its canonical t lies where the kernel says.
+// It must never refuse a lane that the exact test (geometry/triangle.h) accepts, and may call a
+// lane certain only if the exact test accepts it and its canonical t lies where the kernel says.
 //
-// Setting: u = 2^-24; L >= |e1|, |e2| of all lanes, S = |s| (2-norms), |d| <= 1.0001. Each product of
-// three factors is one of six monomials of a determinant, whose magnitudes sum to at most
-// 3! / 3^1.5 = 1.1547 times the product of the rows' norms [CarlenLiebLoss2006].
-// Roundings per monomial, without fused operations (which only have fewer): direction 1, edge 1,
-// edge or s 1, product 1, difference 1, product 1, two sums 2: eight for U, V and det; T has no
-// direction, but s and both edges: eight. With eight factors (1 + e), |e| <= u:
+// Setting: u = 2^-24; L >= |e1|, |e2| of all lanes, S = |s| (2-norms), |d| <= 1.0001. Each product
+// of three factors is one of six monomials of a determinant, whose magnitudes sum to at most 3! /
+// 3^1.5 = 1.1547 times the product of the rows' norms [CarlenLiebLoss2006]. Roundings per monomial,
+// without fused operations (which only have fewer): direction 1, edge 1, edge or s 1, product 1,
+// difference 1, product 1, two sums 2: eight for U, V and det; T has no direction, but s and both
+// edges: eight. With eight factors (1 + e), |e| <= u:
 //   |dU|, |dV| <= 9.24 u |d| L S,  |ddet| <= 9.24 u |d| L^2,  |dT| <= 9.24 u L^2 S.
-// The origin's float is off by a vector of norm x (0 for float rays; see wide_ray.h): x |d| L more in
-// U and V, x L^2 in T.
+// The origin's float is off by a vector of norm x (0 for float rays; see wide_ray.h): x |d| L more
+// in U and V, x L^2 in T.
 //
 // Crossing. Let D = |det as computed|. If its sign is right, a true hit has U >= 0, so its computed
-// value is >= -dU; if it is wrong, the true |det| <= ddet, so 0 <= U <= ddet and the computed value is
+// value is >= -dU; if it is wrong, the true |det| <= ddet, so 0 <= U <= ddet and the computed value
+// is
 // >= -(dU + ddet). The same for V; W adds both, and 5 u |d| L^2 for its own two roundings. With
 //   E = u |d| (18.5 L S + 23.5 L^2) + 2 x |d| L
 // a lane with a value below -E is certainly missed, and one with U, V, W > E is certainly crossed:
 // then D > 3 E, so its sign is certain, too, and no edge value is 0 in exact arithmetic.
 //
 // Parameter. T/D - t = (dT + t ddet) / D, and |t d| <= S + L at a point of the triangle:
-//   |T - t D| <= u L^2 (9.24 S + 9.24 (S + L)) + x L^2 + 6 u (S + L) L^2, the last for the roundings
+//   |T - t D| <= u L^2 (9.24 S + 9.24 (S + L)) + x L^2 + 6 u (S + L) L^2, the last for the
+//   roundings
 // of comparisons, quotient and interval; canonical t is within 2^-40 of t, which 6 u covers, too.
 // That is below 1.4 L E / |d|. A wrong sign of det implies |T| <= t ddet + dT, the same bound.
 //
-// Corners rounded into the frame (not has_exact_corners) are off by up to y each. With L + 2 y for L:
+// Corners rounded into the frame (not has_exact_corners) are off by up to y each. With L + 2 y for
+// L:
 //   E gains y |d| (10 L + 4 S),  |T - t D| gains y L (5 L + 8 S), which 2.1 L E / |d| covers.
 // The constant -1e-30 covers what underflows at the magnitudes of a frame (at most 2^-126 2^22 per
 // operation, also with subnormals flushed) and keeps -E negative, so that 0 >= 0 is uncertain.

@@ -15,8 +15,8 @@
 
 namespace strahl {
 
-/// What a traversal does with lanes that are certainly hit. closest: keeps the nearest as a candidate;
-/// any: stops; each: trusts none, every possible lane is resolved.
+/// What a traversal does with lanes that are certainly hit. closest: keeps the nearest as a
+/// candidate; any: stops; each: trusts none, every possible lane is resolved.
 enum class WideMode { closest, any, each };
 inline constexpr std::size_t kWideModes = 3;
 
@@ -26,8 +26,8 @@ struct WideCounts {
 
 /// One traversal under way; shared by kernel and resolve.
 struct WideState {
-  float upper;  ///< lanes certainly behind it are not wanted
-  float lower;  ///< lanes certainly before it are better than all that is known
+  float upper;           ///< lanes certainly behind it are not wanted
+  float lower;           ///< lanes certainly before it are better than all that is known
   WideId candidate = 0;  ///< leaf of a certain hit, nearer than all resolved ones; 0: none
   std::uint32_t candidate_lane = 0;
   std::uint32_t candidate_reference = 0;
@@ -36,8 +36,8 @@ struct WideState {
   WideCounts counts;
 
   void* context = nullptr;
-  /// Decides these lanes (bits) of a leaf exactly, and the candidate if there is one; sets upper and
-  /// lower and clears the candidate. True stops the traversal.
+  /// Decides these lanes (bits) of a leaf exactly, and the candidate if there is one; sets upper
+  /// and lower and clears the candidate. True stops the traversal.
   bool (*resolve)(WideState& state, WideId leaf, std::uint32_t lanes) = nullptr;
 };
 

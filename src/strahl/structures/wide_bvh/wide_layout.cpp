@@ -25,7 +25,11 @@ class Layout {
  public:
   Layout(const Tree& tree, const Collapse& collapse, WideTree& out, const PrimitiveSource& source,
          const BuildContext& context, BuildReport& report)
-      : tree_(tree), collapse_(collapse), out_(out), source_(source), context_(context),
+      : tree_(tree),
+        collapse_(collapse),
+        out_(out),
+        source_(source),
+        context_(context),
         report_(report) {}
 
   void run() {

@@ -47,7 +47,8 @@ class LeafTest {
   HWY_INLINE void test(const std::byte* leaf, std::uint32_t lanes, int part, V upper,
                        Values& r) const {
     const float* row = corner_row(leaf, lanes, 0) + part * L::kLanes;
-    const V3 a = load(row, lanes), b = load(row + 3 * lanes, lanes), c = load(row + 6 * lanes, lanes);
+    const V3 a = load(row, lanes), b = load(row + 3 * lanes, lanes),
+             c = load(row + 6 * lanes, lanes);
     const V3 s = minus(org_, a), e1 = minus(b, a), e2 = minus(c, a);
     const V3 h = cross(dir_, e2), q = cross(s, e1);
     const V det = dot(e1, h);
@@ -63,8 +64,8 @@ class LeafTest {
     const V distance = hn::Max(hn::Max(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
     r.error = hn::MulAdd(distance, per_distance, constant);
     r.t_error = hn::Mul(r.error, hn::Set(D(), bound[2]));
-    const auto outside = hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)),
-                                hn::Lt(r.w, r.error));
+    const auto outside =
+        hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)), hn::Lt(r.w, r.error));
     const auto before = hn::Lt(hn::Sub(r.t, r.t_error), hn::Mul(enter_, r.det));
     const auto missed = hn::Or(hn::Or(outside, before), is_behind(r, upper));
     const std::uint32_t left = lanes - static_cast<std::uint32_t>(part * L::kLanes);

@@ -1,6 +1,7 @@
 // structures/wide_bvh/wide_node-inl.h - one ray against the boxes of one wide node.
 //
-// Source: slabs [KayKajiya1986]; all children in one or two registers as in [Wald2008]; the order of
+// Source: slabs [KayKajiya1986]; all children in one or two registers as in [Wald2008]; the order
+// of
 //   children by slot XOR signs as in [YlitieKarrasLaine2017].
 // Per-target code: included under foreach_target, once per instruction set.
 // Largest and smallest are taken of the floats' bits as integers: entries are compared with

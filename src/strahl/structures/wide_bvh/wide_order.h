@@ -1,7 +1,7 @@
 // structures/wide_bvh/wide_order.h - in which order a ray visits the slots of a node.
 //
-// Position p in a ray's order is slot p XOR order, where `order` holds the signs of the direction; so
-// bit p of the ordered bits is bit p XOR order of the bits of the slots.
+// Position p in a ray's order is slot p XOR order, where `order` holds the signs of the direction;
+// so bit p of the ordered bits is bit p XOR order of the bits of the slots.
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ constexpr double kUnit = 0x1p-24;
 constexpr double kLeastDir = 0x1p-60;
 constexpr double kMostPlane = 0x1p100;  // beyond every plane's p * rcp, so its sign decides
 constexpr double kMostT = 3e38;
-constexpr double kFarOrigin = 16.0;     // in reaches: from here on a moved start is sharper
+constexpr double kFarOrigin = 16.0;  // in reaches: from here on a moved start is sharper
 
 /// 2^j that brings the squared length into [0.25, 1.0001].
 double unit_scale(double squared) {

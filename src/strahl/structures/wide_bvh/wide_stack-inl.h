@@ -1,11 +1,11 @@
 // structures/wide_bvh/wide_stack-inl.h - the nodes that wait, nearest on top.
 //
-// Entries and ids are kept in two arrays, so that the children of a node are put into their order by
-// one permutation of each register and stored at once, whatever their number; what is stored beyond
-// them is overwritten by the next. When a hit is found, all that lies behind it is dropped, so what
-// is taken from the stack need not be compared.
-// The number of those waiting is the caller's variable: beside the arrays it would live in memory.
-// Per-target code: included under foreach_target, once per instruction set.
+// Entries and ids are kept in two arrays, so that the children of a node are put into their order
+// by one permutation of each register and stored at once, whatever their number; what is stored
+// beyond them is overwritten by the next. When a hit is found, all that lies behind it is dropped,
+// so what is taken from the stack need not be compared. The number of those waiting is the caller's
+// variable: beside the arrays it would live in memory. Per-target code: included under
+// foreach_target, once per instruction set.
 #if defined(STRAHL_WIDE_STACK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRAHL_WIDE_STACK_INL_H_
 #undef STRAHL_WIDE_STACK_INL_H_

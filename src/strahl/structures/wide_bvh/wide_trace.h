@@ -1,8 +1,9 @@
-// structures/wide_bvh/wide_trace.h - one ray through a wide tree: sets the kernel up for the query and
-// decides exactly what the kernel leaves open.
+// structures/wide_bvh/wide_trace.h - one ray through a wide tree: sets the kernel up for the query
+// and decides exactly what the kernel leaves open.
 //
-// Only a query whose every crossing within the interval counts (no mask, culling, exclusion or cursor)
-// lets the kernel take certain lanes by itself; for the others each possible lane is resolved.
+// Only a query whose every crossing within the interval counts (no mask, culling, exclusion or
+// cursor) lets the kernel take certain lanes by itself; for the others each possible lane is
+// resolved.
 #pragma once
 
 #include <bit>

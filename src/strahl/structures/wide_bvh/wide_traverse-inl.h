@@ -1,4 +1,5 @@
-// structures/wide_bvh/wide_traverse-inl.h - the loop over nodes and blocks, nearest first with a stack.
+// structures/wide_bvh/wide_traverse-inl.h - the loop over nodes and blocks, nearest first with a
+// stack.
 //
 // Source: single rays in wide trees [Wald2008]; a node's children are visited in the order of
 //   slot XOR signs [YlitieKarrasLaine2017], so the next node is known as soon as the bits of the
@@ -154,8 +155,7 @@ void traverse(const WideTree& tree, const WideRay& ray, WideState& state) {
     }
     if (waiting == 0) return;
     id = stack.at(--waiting);
-    if (waiting > 0)
-      prefetch<W>(base + std::size_t{unit_of(stack.at(waiting - 1))} * kWideUnit);
+    if (waiting > 0) prefetch<W>(base + std::size_t{unit_of(stack.at(waiting - 1))} * kWideUnit);
   }
 }
 

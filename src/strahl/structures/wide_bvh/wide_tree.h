@@ -1,13 +1,15 @@
-// structures/wide_bvh/wide_tree.h - nodes and leaf blocks of the wide tree, as the kernels read them.
+// structures/wide_bvh/wide_tree.h - nodes and leaf blocks of the wide tree, as the kernels read
+// them.
 //
 // Layout: one arena of 32-byte units. A wide node of W = 8 or 16 slots is six rows of W floats (low
-//   x, y, z, then high x, y, z) and a row of W child ids, 28 W bytes. A leaf block of n triangles is
-//   a LeafBound, nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n
+//   x, y, z, then high x, y, z) and a row of W child ids, 28 W bytes. A leaf block of n triangles
+//   is a LeafBound, nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n
 //   references, 16 + 40 n bytes. Rows are read with full vectors from their unaligned beginning;
 //   lanes beyond n are masked out, and the arena ends in slack for them.
 // Slots: a ray with sign bits s (bit a set where it runs down axis a) visits the children of a node
 //   in ascending order of slot XOR s (of slot XOR 2 s for W = 16), so slots are filled by position.
-// Numbers are those of the tree's frame (wide_frame.h). Where all things are triangles whose corners
+// Numbers are those of the tree's frame (wide_frame.h). Where all things are triangles whose
+// corners
 //   are floats of the frame (has_exact_corners), the block holds the very corners of the scene.
 // Lanes: a thing that is no triangle has NaN corners. Every comparison of the kernels is written so
 //   that NaN means "may be hit", so such a lane always goes to the exact test.
@@ -33,20 +35,19 @@ inline constexpr WideId kWideLeaf = 0x80000000u;
 inline constexpr std::size_t kWideUnit = 32;
 inline constexpr std::uint64_t kWideMaxUnits = std::uint64_t{1} << 27;  ///< 4 GiB
 inline constexpr std::uint32_t kWideMaxLanes = 16;
-inline constexpr int kWideMaxDepth = 64;                  ///< inner nodes on a path
+inline constexpr int kWideMaxDepth = 64;        ///< inner nodes on a path
 inline constexpr std::size_t kWideSlack = 128;  ///< bytes that may be read beyond the last block
 
 constexpr bool is_leaf(WideId id) { return (id & kWideLeaf) != 0; }
-constexpr std::uint32_t unit_of(WideId id) {
-  return is_leaf(id) ? (id & ~kWideLeaf) >> 4 : id;
-}
+constexpr std::uint32_t unit_of(WideId id) { return is_leaf(id) ? (id & ~kWideLeaf) >> 4 : id; }
 constexpr std::uint32_t lanes_of(WideId leaf) { return (leaf & 15u) + 1; }
 
 /// Error bounds of the hit filter for one block; see wide_filter.h.
 struct LeafBound {
-  float per_distance = 0;  ///< of edge values, per unit of the largest |a - org| component; negative
-  float constant = 0;      ///< of edge values, whatever the distance; negative
-  float to_t = 0;          ///< from edge values to t
+  float per_distance =
+      0;               ///< of edge values, per unit of the largest |a - org| component; negative
+  float constant = 0;  ///< of edge values, whatever the distance; negative
+  float to_t = 0;      ///< from edge values to t
   float unused = 0;
 };
 

@@ -76,7 +76,8 @@ class WideBvhChecker {
       demand(encloses(box, child), "a box does not enclose a child's");
       for (int a = 0; a < 3; ++a)
         demand(static_cast<double>(std::max(std::abs(child.lo[a]), std::abs(child.hi[a]))) <=
-                   tree_.frame.reach, "a plane lies beyond the frame's reach");
+                   tree_.frame.reach,
+               "a plane lies beyond the frame's reach");
       check(child_row(node, tree_.width)[slot], child, depth + 1);
     }
     demand(used >= 2, "a node has less than two children");
@@ -146,9 +147,11 @@ class WideBvhChecker {
     }
     const LaneCorners corners = lane_corners(triangle, tree_.frame);
     demand(stored.a == Vec3d(corners.a) && stored.b == Vec3d(corners.b) &&
-               stored.c == Vec3d(corners.c), "a block's corners are not the primitive's");
-    demand(!tree_.has_exact_corners || (stored.a == triangle.a && stored.b == triangle.b &&
-                                        stored.c == triangle.c), "corners are not exact");
+               stored.c == Vec3d(corners.c),
+           "a block's corners are not the primitive's");
+    demand(!tree_.has_exact_corners ||
+               (stored.a == triangle.a && stored.b == triangle.b && stored.c == triangle.c),
+           "corners are not exact");
     const LeafBound own = leaf_bound({&corners, 1});
     demand(bound.per_distance <= own.per_distance && bound.constant <= own.constant,
            "a block's error bound is too small");
