@@ -1,5 +1,7 @@
 // wide_bvh with every instruction set of the machine and both widths, against brute force on the
 // adversarial scenes and against bvh with many rays on larger ones: the same bits.
+#include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <tests/conformance/oracle.h>
 #include <tests/conformance/scenes.h>
@@ -57,6 +59,60 @@ TEST_P(WideKernels, AnswerLikeBvhOnLargeScenes) {
       wide->closest_hit(set.batch(false), got);
       wide->any_hit(set.batch(false), any);
       for (std::size_t i = 0; i < got.size(); ++i) {
+        ASSERT_TRUE(have_same_bits(got[i], expected[i])) << name << ' ' << spec << " ray " << i;
+        ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << name << ' ' << spec << " ray " << i;
+      }
+    }
+  }
+}
+
+/// Unit and other float rays, which take a shorter way than doubles.
+struct FloatRays {
+  struct Record {
+    Vec3f org;
+    float t_min;
+    Vec3f dir;
+    float t_max;
+  };
+  std::vector<Record> records;
+
+  explicit FloatRays(const RaySet& set) {
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+      Ray ray = set.rays[i];
+      const double size = length(ray.dir);
+      if (i % 3 != 0 && size > 0.0 && std::isfinite(size))
+        ray.dir = ray.dir / size, ray.t_min *= size, ray.t_max *= size;
+      if (i % 10 == 1) ray.dir.x = i % 20 == 1 ? -0.0 : 0.0;
+      records.push_back({Vec3f(ray.org), static_cast<float>(ray.t_min), Vec3f(ray.dir),
+                         static_cast<float>(ray.t_max)});
+    }
+  }
+  RayBatch batch() const {
+    const auto* base = reinterpret_cast<const std::byte*>(records.data());
+    constexpr std::size_t kStride = sizeof(Record);
+    RayBatch batch;
+    batch.org = {base + offsetof(Record, org), records.size(), kStride, false};
+    batch.dir = {base + offsetof(Record, dir), records.size(), kStride, false};
+    batch.t_min = ScalarView{base + offsetof(Record, t_min), kStride, false};
+    batch.t_max = ScalarView{base + offsetof(Record, t_max), kStride, false};
+    return batch;
+  }
+};
+
+TEST_P(WideKernels, AnswerFloatRaysLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    const FloatRays rays(adversarial_rays(*scene, kManyRays, 78));
+    const std::size_t n = rays.records.size();
+    std::vector<Hit> expected(n), got(n);
+    std::vector<std::uint8_t> any(n);
+    const BatchReport report = build(scene, "bvh")->closest_hit(rays.batch(), expected);
+    for (const char* spec : {"wide_bvh:width=8", "wide_bvh:width=16", "wide_bvh:quality=high"}) {
+      const auto wide = build(scene, spec);
+      EXPECT_EQ(wide->closest_hit(rays.batch(), got).invalid_rays, report.invalid_rays);
+      wide->any_hit(rays.batch(), any);
+      for (std::size_t i = 0; i < n; ++i) {
         ASSERT_TRUE(have_same_bits(got[i], expected[i])) << name << ' ' << spec << " ray " << i;
         ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << name << ' ' << spec << " ray " << i;
       }

@@ -39,7 +39,8 @@ Collapse::Costs Collapse::solve(std::uint32_t node) {
   for (int j = 2; j <= rules_.width; ++j) {
     double best = Aabb::kInf;
     for (int k = 1; k < j; ++k) {
-      const double cost = left[static_cast<std::size_t>(k)] + right[static_cast<std::size_t>(j - k)];
+      const double cost =
+          left[static_cast<std::size_t>(k)] + right[static_cast<std::size_t>(j - k)];
       if (!(cost < best)) continue;
       best = cost;
       choice(node, j) = static_cast<std::uint8_t>(k);

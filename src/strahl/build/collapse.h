@@ -4,7 +4,8 @@
 //   counted as blocks: a block of several primitives is tested at once, so it costs little more
 //   than one of a single primitive.
 // Method: cost(x, j) is that of the subtree x given as at most j children of a wide node. One child
-//   is a block or a wide node; j children are what the left and right subtree give with k and j - k.
+//   is a block or a wide node; j children are what the left and right subtree give with k and j -
+//   k.
 // Differs from the paper: plain cost of a block instead of a cost per primitive.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
@@ -22,11 +23,11 @@ namespace strahl {
 /// What a wide node and a block of primitives cost.
 struct CollapseRules {
   static constexpr int kMaxWidth = 16;
-  int width = 8;                ///< children of a node at most, 2..kMaxWidth
-  std::size_t max_leaf = 8;     ///< primitives of a block at most, at least those of a tree's leaf
-  double node_cost = 1.0;       ///< of a step to a wide node
-  double leaf_cost = 0.8;       ///< of a block
-  double primitive_cost = 0.03; ///< and of each primitive in it
+  int width = 8;                 ///< children of a node at most, 2..kMaxWidth
+  std::size_t max_leaf = 8;      ///< primitives of a block at most, at least those of a tree's leaf
+  double node_cost = 1.0;        ///< of a step to a wide node
+  double leaf_cost = 0.8;        ///< of a block
+  double primitive_cost = 0.03;  ///< and of each primitive in it
 };
 
 /// The chosen wide nodes and blocks of a tree. The tree must outlive it.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxBins = 64;
 constexpr std::size_t kLeastCut = 8;  // references: smaller sets end in one block or two anyway
-constexpr double kShortAxis = 0.2;  // of the longest: shorter ones are not cut
+constexpr double kShortAxis = 0.2;    // of the longest: shorter ones are not cut
 
 /// A run of the array and where its free room ends.
 struct Room {
@@ -77,7 +77,8 @@ class SpatialPolicy {
 
   std::pair<Room, Room> divide(const Room& room, const ObjectSplit& split) const {
     const auto [left, right] = splitter_->divide(room.set, split);
-    if (room.set.size() >= kLeastCut && room.spare() > 0 && overlap(left.box, right.box) > rules_.least_overlap * root_area_) {
+    if (room.set.size() >= kLeastCut && room.spare() > 0 &&
+        overlap(left.box, right.box) > rules_.least_overlap * root_area_) {
       const Cut cut = find_cut(room);
       if (cut.cost < split.cost) {
         if (const auto parts = carry_out(room, cut)) return *parts;
@@ -169,7 +170,8 @@ class SpatialPolicy {
 
   /// Adds a reference to the bins it reaches through: its box in slabs, as cutting the primitive
   /// itself for every bin would take most of the build.
-  void spread(const PrimRef& ref, const Aabb& box, int axis, std::array<Bin, kMaxBins>& bins) const {
+  void spread(const PrimRef& ref, const Aabb& box, int axis,
+              std::array<Bin, kMaxBins>& bins) const {
     const std::size_t first = bin_of(box, axis, ref.box.lo[axis]);
     std::size_t last = bin_of(box, axis, ref.box.hi[axis]);
     while (last > first && ref.box.hi[axis] <= plane_of(box, axis, last)) --last;
@@ -211,8 +213,8 @@ class SpatialPolicy {
   };
   template <class It>
   static Sides whole_sides(It begin, It across, It right, It end) {
-    Sides sides{{}, {}, static_cast<std::size_t>(across - begin),
-                static_cast<std::size_t>(end - right)};
+    Sides sides{
+        {}, {}, static_cast<std::size_t>(across - begin), static_cast<std::size_t>(end - right)};
     for (It i = begin; i != across; ++i) sides.left_box.extend(i->box);
     for (It i = right; i != end; ++i) sides.right_box.extend(i->box);
     return sides;

@@ -39,7 +39,8 @@ Sticks sticks(std::size_t count, std::uint64_t seed) {
 }
 
 Tree cut_tree(const Sticks& source, const SpatialRules& rules, const BuildContext& context = {}) {
-  return build_spatial_tree(source, make_prim_refs(source, context), source.total(), rules, context);
+  return build_spatial_tree(source, make_prim_refs(source, context), source.total(), rules,
+                            context);
 }
 
 Tree whole_tree(const Sticks& source) {

@@ -26,7 +26,8 @@ inline void make_unique(std::vector<Hit>& hits) {
   hits.erase(std::unique(hits.begin(), hits.end(), is_same_hit), hits.end());
 }
 
-/// A structure that traces float rays without filters faster than any others.
+/// A structure that prepares rays itself, by trace_ray(), and takes float rays without filters a
+/// shorter way, by float_trace().
 template <class S>
 concept TracesFloats = requires(const S& s) {
   { s.traces_floats() } -> std::same_as<bool>;
@@ -92,9 +93,7 @@ class Erased final : public Accelerator {
   template <class Q, class C>
   void trace(SceneVisitor& prims, const Ray& ray, Q& query, C& counters) const {
     prims.begin_ray();
-    if constexpr (requires {
-                    structure_.trace_ray(prims, ray, scene_->world_frame(), query, counters);
-                  })
+    if constexpr (TracesFloats<S>)
       structure_.trace_ray(prims, ray, scene_->world_frame(), query, counters);
     else
       structure_.trace(prims, PreparedRay(ray, scene_->world_frame()), query, counters);
@@ -132,7 +131,6 @@ class Erased final : public Accelerator {
   void answer(const SpanJob& job, C& counters, BatchReport& report, T* out,
               Result result_of) const {
     SceneVisitor prims(*scene_);
-    std::fill(out + job.begin, out + job.end, T{});
     const auto slow = [&](std::size_t i, const Ray& ray, const HitFilter& filter) {
       Q query(ray, filter);
       trace(prims, ray, query, counters);
@@ -143,11 +141,13 @@ class Erased final : public Accelerator {
         auto fast = structure_.template float_trace<Q>(prims, counters);
         const FloatRays rays(job.rays);
         for_valid_rays(job, report, slow, [&](std::size_t i) {
+          out[i] = T{};
           return fast.run(rays.org(i), rays.dir(i), rays.t_min(i), rays.t_max(i), out[i]);
         });
         return;
       }
     }
+    std::fill(out + job.begin, out + job.end, T{});
     for_valid_rays(job, report, slow);
   }
 

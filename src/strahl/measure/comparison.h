@@ -36,7 +36,7 @@ struct ComparisonCell {
 /// One structure.
 struct ComparisonRow {
   std::string spec;
-  BuildReport build;  ///< after all rays
+  BuildReport build;                  ///< after all rays
   std::vector<ComparisonCell> cells;  ///< in the order of the workloads
 };
 

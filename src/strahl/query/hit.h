@@ -37,7 +37,8 @@ struct HitFilter {
 
   /// Whether it lets every hit pass.
   bool accepts_all() const {
-    return mask == ~0u && !cull_back && after_t < 0.0 && exclude == PrimitiveId{kNoId, kNoId, kNoId};
+    return mask == ~0u && !cull_back && after_t < 0.0 &&
+           exclude == PrimitiveId{kNoId, kNoId, kNoId};
   }
   bool accepts(const Hit& hit) const {
     if (cull_back && !hit.is_front) return false;

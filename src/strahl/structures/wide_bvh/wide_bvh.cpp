@@ -73,7 +73,7 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   Aabb box;
   for (const PrimRef& ref : refs) box.extend(ref.box);
   const bool all_floats = has_float_corners(refs, source);
-  const WideFrame frame = make_wide_frame(box, all_floats);
+  const WideFrame frame = make_wide_frame(box);
   CollapseRules rules;
   rules.width = width;
   rules.max_leaf =

@@ -59,7 +59,7 @@ class WideBvh {
   }
 
   /// Whether float rays without filters may be traced by a float_trace() of this structure.
-  bool traces_floats() const { return tree_.has_exact_corners && !tree_.is_empty(); }
+  bool traces_floats() const { return tree_.frame.is_identity() && !tree_.is_empty(); }
   template <class Q, class Prims, class C>
   auto float_trace(Prims& prims, C& counters) const {
     return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, prims, counters);

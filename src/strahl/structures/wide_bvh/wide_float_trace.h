@@ -1,5 +1,6 @@
 // structures/wide_bvh/wide_float_trace.h - the same as wide_trace.h for what most batches hold:
-// float rays without filters, for the first or any hit in a tree that keeps exact corners.
+// float rays without filters, for the first or any hit in a tree that keeps the scene's
+// coordinates.
 //
 // The ray is prepared in floats, and doubles are made only for the t of the hit and for what the
 // kernel cannot decide, so that a ray costs little more than its traversal.
@@ -94,9 +95,13 @@ class WideFloatTrace {
     const std::byte* leaf = tree_.at(state.candidate);
     const std::uint32_t lanes = lanes_of(state.candidate), lane = state.candidate_lane;
     state.candidate = 0;
-    const TriangleVertices triangle = stored_corners(leaf, lanes, lane);
-    const Vec3d org(org_), dir(dir_);
     const std::uint32_t reference = reference_row(leaf, lanes)[lane];
+    const Vec3d org(org_), dir(dir_);
+    TriangleVertices triangle;
+    if (tree_.has_exact_corners)
+      triangle = stored_corners(leaf, lanes, lane);
+    else
+      prims_.scene().triangle(reference, triangle);
     hit.id = prims_.blank_hit(reference).id;
     hit.is_front = state.candidate_is_front, hit.reference = reference;
     hit.t = *crossing_t(org, dir, triangle, triangle.a - org) + 0.0;

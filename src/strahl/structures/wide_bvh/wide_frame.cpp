@@ -12,7 +12,7 @@ double radius(const Aabb& box) { return std::max(norm_max(box.lo), norm_max(box.
 
 }  // namespace
 
-WideFrame make_wide_frame(const Aabb& box, bool all_floats) {
+WideFrame make_wide_frame(const Aabb& box) {
   WideFrame frame;
   if (box.is_empty()) return frame;
   const double extent = norm_max(box.extent());
@@ -20,7 +20,7 @@ WideFrame make_wide_frame(const Aabb& box, bool all_floats) {
   // Where the scene lies within a few of its own sizes from the origin, floats resolve it well.
   const bool is_near = far <= 8 * extent;
   const bool is_suited = is_near && far >= kLeast && far <= kMost;
-  if (is_suited && all_floats) {
+  if (is_suited) {
     frame.reach = 1.0001 * far;  // boxes may be rounded outward
     return frame;
   }

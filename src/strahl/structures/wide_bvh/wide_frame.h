@@ -1,9 +1,9 @@
 // structures/wide_bvh/wide_frame.h - the coordinates in which a wide tree holds its floats.
 //
-// A position p of the scene is (p - center) * scale, scale a power of two. Scenes of floats whose
-//   size and place suit float arithmetic keep their own coordinates (center 0, scale 1): nothing is
-//   rounded. Others are moved to the origin and scaled to about 1, so that the kernels never meet
-//   magnitudes whose products leave the range of floats, and far scenes keep their detail.
+// A position p of the scene is (p - center) * scale, scale a power of two. Scenes whose size and
+//   place suit float arithmetic keep their own coordinates (center 0, scale 1): floats are not
+//   rounded then. Others are moved to the origin and scaled to about 1, so that the kernels never
+//   meet magnitudes whose products leave the range of floats, and far scenes keep their detail.
 // Invariant: |coordinate| <= reach for every plane of a non-empty box, 0 < reach <= 2^21.
 #pragma once
 
@@ -22,7 +22,6 @@ struct WideFrame {
 };
 
 /// A frame for things within `box`, which may be empty.
-/// @param all_floats whether all corners are floats, which an identity frame keeps exactly
-WideFrame make_wide_frame(const Aabb& box, bool all_floats);
+WideFrame make_wide_frame(const Aabb& box);
 
 }  // namespace strahl
