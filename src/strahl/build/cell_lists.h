@@ -43,8 +43,8 @@ struct CellListInput {
 };
 
 /// Empty when there would be more than input.most references. O(cells + references), each step a
-/// clip if exact; twice the memory of the references. Memory is required from the context before it
-/// is taken; the caller's own `owned` bytes count too.
+/// clip if exact; twice the memory of the references. It is required from the context before it is
+/// taken; the caller's own `owned` bytes count too.
 std::optional<CellLists> make_cell_lists(const UniformCells& cells, const CellListInput& input,
                                          std::uint64_t owned, const BuildContext& context);
 

@@ -24,8 +24,7 @@ namespace strahl {
 
 enum class NestingDecision { cost, always };
 
-/// What structures with sub-grids let a user choose about them. Defaults are measured, see
-/// structures/recursive_grid/README.md.
+/// What structures with sub-grids let a user choose about them.
 struct NestingOptions {
   int max_prims = 8;
   int max_depth = 3;

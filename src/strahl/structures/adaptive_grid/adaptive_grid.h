@@ -26,7 +26,7 @@ namespace strahl {
 
 enum class OrphanPlace { tree, grid };
 
-/// README.md says how the defaults were measured.
+/// README.md shows what the defaults cost.
 struct AdaptiveGridOptions : CellGridOptions, NestingOptions {
   double f = 1.5;
   double m = 0.1;

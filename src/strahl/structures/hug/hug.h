@@ -19,7 +19,7 @@
 
 namespace strahl {
 
-/// README.md says how the defaults were measured.
+/// README.md shows what the defaults cost.
 struct HugOptions : CellGridOptions {
   int groups = 3;
   double ratio = 4.0;

@@ -16,7 +16,7 @@
 
 namespace strahl {
 
-/// README.md says how the defaults were measured.
+/// README.md shows what the defaults cost.
 struct RecursiveGridOptions : CellGridOptions, NestingOptions {
   bool mailbox = true;
 };
