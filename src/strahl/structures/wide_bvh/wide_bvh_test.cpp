@@ -200,7 +200,9 @@ TEST(WideOrder, PutsTheBitsOfSlotsIntoARaysOrder) {
       for (std::uint32_t p = 8; p-- > 0;) {
         const bool is_hit = (bits >> (p ^ order) & 1u) != 0;
         ASSERT_EQ((ordered >> p & 1u) != 0, is_hit);
-        if (is_hit) ASSERT_EQ(slots >> (8 * listed++) & 7u, p ^ order);
+        if (!is_hit) continue;
+        ASSERT_EQ(slots >> (8 * listed) & 7u, p ^ order);
+        ++listed;
       }
       ASSERT_EQ(slots >> 56, slots >> (8 * (count - 1)) & 255u);
     }
