@@ -115,8 +115,8 @@ class WideBvhChecker {
         covered_[reference].lo[a] = std::min(covered_[reference].lo[a], box.lo[a]);
         covered_[reference].hi[a] = std::max(covered_[reference].hi[a], box.hi[a]);
       }
-      check_lane(block, lanes, lane, bound);
     }
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) check_lane(block, lanes, lane, bound);
   }
 
   /// The blocks that refer to a primitive must enclose it together.
