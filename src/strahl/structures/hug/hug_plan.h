@@ -7,6 +7,7 @@
 // Thread safety: pure function.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <strahl/build/prim_ref.h>
