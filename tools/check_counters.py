@@ -64,8 +64,8 @@ def delete_calls(folder):
 
 def machine_code(folder):
     """Disassembly of the compiled unit, with relocations."""
-    run([COMPILER, "-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-Isrc", "-c", "unit.cpp",
-         "-o", "unit.o"], folder)
+    run([COMPILER, "-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off",
+         "-fno-tree-slp-vectorize", "-Isrc", "-c", "unit.cpp", "-o", "unit.o"], folder)
     return run(["objdump", "-dr", "unit.o"], folder)
 
 

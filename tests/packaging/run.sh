@@ -20,7 +20,8 @@ cmake_consumer() {
 }
 
 cmake_consumer find_package -DCMAKE_PREFIX_PATH="$work/prefix"
-cmake_consumer add_subdirectory -DSTRAHL_SOURCE_DIR="$here/../.."
+# The whole library again: without optimisation, which is faster to compile.
+cmake_consumer add_subdirectory -DSTRAHL_SOURCE_DIR="$here/../.." -DCMAKE_BUILD_TYPE=Debug
 
 pc_file=$(find "$work/prefix" -name strahl.pc)
 PKG_CONFIG_PATH=$(dirname "$pc_file") "$here/pkg_config/build.sh" "$work/pkg_config_consumer"

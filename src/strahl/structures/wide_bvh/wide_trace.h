@@ -39,9 +39,15 @@ inline TriangleVertices stored_corners(const std::byte* leaf, std::uint32_t lane
 template <class C>
 void add_counts(const WideCounts& counts, C& counters) {
   if constexpr (!std::is_same_v<C, NoCounters>) {
-    for (std::uint64_t i = 0; i < counts.nodes; ++i) counters.traversal_step();
-    for (std::uint64_t i = 0; i < counts.leaves; ++i) counters.leaf_entered(false);
-    for (std::uint64_t i = 0; i < counts.lanes; ++i) counters.primitive_tested();
+    for (std::uint64_t i = 0; i < counts.nodes; ++i) {
+      counters.traversal_step();
+    }
+    for (std::uint64_t i = 0; i < counts.leaves; ++i) {
+      counters.leaf_entered(false);
+    }
+    for (std::uint64_t i = 0; i < counts.lanes; ++i) {
+      counters.primitive_tested();
+    }
     counters.volume_tests(static_cast<int>(counts.boxes));
   }
 }
