@@ -1,4 +1,5 @@
-# strahl::io: readers, generators, writers, images and measurements. Part of the tools, not of the installed library.
+# strahl::io: readers, generators, writers, images and measurements. Part of the tools, not of the
+# installed library.
 find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)

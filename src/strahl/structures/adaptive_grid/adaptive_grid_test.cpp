@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <tests/support/against_brute.h>
+#include <tests/support/boxes.h>
 #include <tests/support/doctored.h>
 #include <tests/support/mesh_maker.h>
 
@@ -9,20 +10,15 @@
 namespace strahl {
 namespace {
 
+using test::cube;
 using test::Doctored;
 using test::expect_same_answers;
 using test::MeshMaker;
 using test::rays_through;
+using test::refs_of;
 using test::ScenePtr;
 using test::soup;
 using test::work_of;
-
-std::vector<PrimRef> refs_of(const std::vector<Aabb>& boxes) {
-  std::vector<PrimRef> refs;
-  for (const Aabb& box : boxes) refs.push_back({box, static_cast<std::uint32_t>(refs.size())});
-  return refs;
-}
-Aabb cube(const Vec3d& at, double side) { return {at, at + Vec3d::all(side)}; }
 
 std::vector<std::vector<std::uint32_t>> members(const std::vector<Cluster>& clusters) {
   std::vector<std::vector<std::uint32_t>> sets;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 #include <tests/support/against_brute.h>
+#include <tests/support/boxes.h>
 #include <tests/support/doctored.h>
 #include <tests/support/mesh_maker.h>
 
@@ -13,20 +14,15 @@
 namespace strahl {
 namespace {
 
+using test::cube;
 using test::Doctored;
 using test::expect_same_answers;
 using test::MeshMaker;
 using test::rays_through;
+using test::refs_of;
 using test::ScenePtr;
 using test::soup;
 using test::work_of;
-
-std::vector<PrimRef> refs_of(const std::vector<Aabb>& boxes) {
-  std::vector<PrimRef> refs;
-  for (const Aabb& box : boxes) refs.push_back({box, static_cast<std::uint32_t>(refs.size())});
-  return refs;
-}
-Aabb cube(const Vec3d& at, double side) { return {at, at + Vec3d::all(side)}; }
 
 TEST(SizeGroups, TellSizesApart) {
   std::vector<Aabb> boxes;
