@@ -15,28 +15,14 @@
 
 #include <strahl/base/build_context.h>
 #include <strahl/base/hash.h>
-#include <strahl/base/options.h>
 #include <strahl/build/build_report.h>
-#include <strahl/build/tree.h>
+#include <strahl/build/hierarchy.h>
 #include <strahl/geometry/primitive_source.h>
+#include <strahl/structures/bvh/bvh_build.h>
+#include <strahl/structures/bvh/bvh_options.h>
 #include <strahl/traverse/walk.h>
 
 namespace strahl {
-
-enum class BvhVolume { aabb };
-enum class BvhBuilder { sah_sweep, sah_binned };
-
-/// Costs are relative to each other; see README.md for how the defaults were measured.
-struct BvhOptions {
-  BvhVolume bv = BvhVolume::aabb;
-  BvhBuilder builder = BvhBuilder::sah_binned;
-  int bins = 32;
-  int leaf_size = 4;
-  double traverse_cost = 1.0;
-  double intersect_cost = 1.0;
-};
-
-OptionTable<BvhOptions> option_fields(const BvhOptions*);
 
 /// O(log n) expected per ray. 32 bytes per node, 4 per reference.
 class Bvh {
@@ -46,7 +32,7 @@ class Bvh {
   static constexpr const char* kTitle = "bounding volume hierarchy";
   static constexpr bool kRefersOnce = true;
   static constexpr int kMaxChildren = 2;
-  static constexpr int kMaxDepth = 64;
+  static constexpr int kMaxDepth = kBvhMaxDepth;
 
   Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context);
 
@@ -97,8 +83,7 @@ class Bvh {
   static Interval clip(const Node& n, const PreparedRay& ray, const Interval& span) {
     return clip_to_box(ray, {n.lo[0], n.lo[1], n.lo[2]}, {n.hi[0], n.hi[1], n.hi[2]}, span);
   }
-  void lay_out(const Tree& tree);
-  static Node make_node(const TreeNode& from);
+  static Node make_node(const HierarchyNode& from);
   /// Of the boxes as stored, so that it can be told from the nodes alone.
   double sah_cost() const;
 
