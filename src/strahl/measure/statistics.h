@@ -24,4 +24,8 @@ struct Estimate {
 /// bootstrap [Efron1979], 2,000 resamples, reproducible. As many of a as of b, at least one.
 Estimate median_ratio(std::span<const double> a, std::span<const double> b);
 
+/// The geometric mean of ratios of independent scenes, its interval by the same bootstrap over
+/// scenes. At least one; all positive.
+Estimate geometric_mean(std::span<const double> ratios);
+
 }  // namespace strahl

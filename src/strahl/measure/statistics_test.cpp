@@ -38,5 +38,14 @@ TEST(Statistics, IntervalsHoldTheTruthAboutAsOftenAsTheySay) {
   EXPECT_GT(held, 175);
 }
 
+TEST(Statistics, TheGeometricMeanOfRatiosWeighsDoubleAndHalfAlike) {
+  const Estimate e = geometric_mean(std::vector<double>{2.0, 0.5, 4.0, 0.25});
+  EXPECT_DOUBLE_EQ(e.value, 1.0);
+  EXPECT_LT(e.low, 1.0);
+  EXPECT_GT(e.high, 1.0);
+  EXPECT_GT(e.low, 0.25);
+  EXPECT_LT(e.high, 4.0);
+}
+
 }  // namespace
 }  // namespace strahl
