@@ -142,8 +142,8 @@ void add_render_command(CLI::App& app, Runner& run) {
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene");
   command->footer(
       "Modes: shaded (material colours, lamps, soft occlusion), normals, depth (near is bright),\n"
-      "ao (ambient occlusion), path (diffuse light transport under a sky), cost and steps (heat\n"
-      "maps of tests and of traversal steps per ray).\n"
+      "ao (ambient occlusion), path (diffuse light transport under a sky); heat maps per ray:\n"
+      "steps (traversal), tests (of primitives), cost (both and tests of bounding volumes).\n"
       "The view is that of the scene, else one that frames it; each part can be overridden.\n"
       "EXR files also hold depth (Z), normals (N.X, N.Y, N.Z) and primitive_id, geometry_id,\n"
       "instance_id of the pixels' centres. The picture does not depend on structure and threads.\n"

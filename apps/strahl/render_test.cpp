@@ -13,7 +13,7 @@ using test::Finished;
 using RenderCommand = test::CommandTest;
 
 TEST_F(RenderCommand, EveryModeWritesAPicture) {
-  for (const char* mode : {"shaded", "normals", "depth", "ao", "path", "cost", "steps"}) {
+  for (const char* mode : {"shaded", "normals", "depth", "ao", "path", "cost", "steps", "tests"}) {
     const Finished finished =
         run(std::string("render gen:balls:2 -o out.png --size 40x30 --mode ") + mode);
     ASSERT_EQ(finished.code, 0) << finished.err;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <strahl/render/look.h>
@@ -56,18 +55,6 @@ Vec3d Look::shade(const SurfacePoint& point, const Vec3d& dir, double open) cons
   const Vec3d lamps =
       (0.35 + 0.65 * open) * (0.18 * head * Vec3d{1, 1, 1} + 0.52 * key * Vec3d{1.0, 0.96, 0.88});
   return times(point.color, around + lamps);
-}
-
-Vec3d heat_color(double value) {
-  static constexpr std::array<Vec3d, 6> kStops{{{0.00, 0.00, 0.02},
-                                                {0.05, 0.02, 0.25},
-                                                {0.35, 0.02, 0.28},
-                                                {0.85, 0.12, 0.05},
-                                                {0.98, 0.60, 0.03},
-                                                {1.00, 0.98, 0.80}}};
-  const double at = std::clamp(value, 0.0, 1.0) * (kStops.size() - 1);
-  const std::size_t stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  return mix(kStops[stop], kStops[stop + 1], at - static_cast<double>(stop));
 }
 
 }  // namespace strahl

@@ -1,4 +1,4 @@
-// render/look.h - colours: surfaces, sky, light and heat maps. Linear, 1 is white.
+// render/look.h - colours: surfaces, sky and light. Linear, 1 is white.
 #pragma once
 
 #include <strahl/query/hit.h>
@@ -35,8 +35,5 @@ class Look {
   const Scene& scene_;
   Vec3d up_, key_;
 };
-
-/// Dark blue over red to white for values 0..1.
-Vec3d heat_color(double value);
 
 }  // namespace strahl

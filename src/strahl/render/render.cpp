@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <strahl/base/error.h>
+#include <strahl/render/heat_map.h>
 #include <strahl/render/render.h>
 #include <strahl/render/tile.h>
 
@@ -18,21 +19,16 @@ constexpr int kMaxSamples = 65536;
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 28;
 /// Reach of ambient occlusion, as a share of the scene's diagonal.
 constexpr double kOcclusionReach = 0.12;
-/// The brightest heat colour is that of this share of the pixels: a few extreme rays do not count.
-constexpr double kHeatQuantile = 0.995;
 
-constexpr std::array<std::pair<std::string_view, RenderMode>, 7> kModes{
+constexpr std::array<std::pair<std::string_view, RenderMode>, 8> kModes{
     {{"shaded", RenderMode::shaded},
      {"normals", RenderMode::normals},
      {"depth", RenderMode::depth},
      {"ao", RenderMode::ao},
      {"path", RenderMode::path},
      {"cost", RenderMode::cost},
-     {"steps", RenderMode::steps}}};
-
-bool is_value(RenderMode mode) {
-  return mode == RenderMode::depth || mode == RenderMode::cost || mode == RenderMode::steps;
-}
+     {"steps", RenderMode::steps},
+     {"tests", RenderMode::tests}}};
 
 Image make_image(const RenderOptions& options, const BuildContext& context) {
   Image image;
@@ -52,14 +48,12 @@ Image make_image(const RenderOptions& options, const BuildContext& context) {
   return image;
 }
 
-/// The finite values' smallest, and the largest or a high quantile.
-std::pair<float, float> span_of(std::vector<float> values, double quantile) {
-  std::erase_if(values, [](float v) { return !std::isfinite(v); });
-  if (values.empty()) return {0.0f, 0.0f};
-  const auto rank = static_cast<std::ptrdiff_t>(static_cast<double>(values.size() - 1) * quantile);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  const float high = values[static_cast<std::size_t>(rank)];
-  return {*std::min_element(values.begin(), values.end()), high};
+/// Least and largest of the finite values; zeros where there are none.
+std::pair<double, double> span_of(const std::vector<float>& values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const float v : values)
+    if (std::isfinite(v)) low = std::min(low, double{v}), high = std::max(high, double{v});
+  return low <= high ? std::pair(low, high) : std::pair(0.0, 0.0);
 }
 
 /// Near surfaces are bright; nothing is black.
@@ -69,16 +63,16 @@ Vec3d depth_color(double depth, double nearest, double farthest) {
   return Vec3d::all(range > 0.0 ? 1.0 - 0.95 * (depth - nearest) / range : 1.0);
 }
 
-void color_values(const std::vector<float>& values, RenderMode mode, RenderResult& result) {
-  const bool is_depth = mode == RenderMode::depth;
-  const auto [low, high] = span_of(values, is_depth ? 1.0 : kHeatQuantile);
-  result.value_min = is_depth ? low : 0.0f, result.value_max = high;
-  for (std::size_t pixel = 0; pixel < values.size(); ++pixel) {
-    const Vec3d color = is_depth ? depth_color(values[pixel], low, high)
-                                 : heat_color(high > 0.0f ? values[pixel] / high : 0.0);
-    for (int c = 0; c < 3; ++c)
-      result.image.rgb[3 * pixel + static_cast<std::size_t>(c)] = static_cast<float>(color[c]);
-  }
+void color_depth(RenderResult& result) {
+  const auto [low, high] = span_of(result.values);
+  result.value_min = low, result.value_max = high;
+  for (std::size_t pixel = 0; pixel < result.values.size(); ++pixel)
+    set_pixel(result.image, pixel, depth_color(result.values[pixel], low, high));
+}
+
+void color_heat(RenderResult& result) {
+  result.value_max = heat_scale(result.values);
+  result.image.rgb = heat_map(result.values, result.value_max);
 }
 
 double diagonal(const Scene& scene) {
@@ -94,7 +88,7 @@ std::optional<RenderMode> render_mode(std::string_view name) {
 }
 
 int sample_count(const RenderOptions& options) {
-  if (options.corners || is_value(options.mode)) return 1;
+  if (options.corners || shows_one_number(options.mode)) return 1;
   if (options.samples > 0) return options.samples;
   return options.mode == RenderMode::path ? 32 : 4;
 }
@@ -108,7 +102,7 @@ RenderResult render(const Accelerator& accelerator, const RenderOptions& options
   RenderResult result;
   result.image = make_image(options, context);
   const int width = result.image.width, height = result.image.height;
-  std::vector<float> values(is_value(options.mode) ? result.image.rgb.size() / 3 : 0);
+  result.values.resize(shows_one_number(options.mode) ? result.image.rgb.size() / 3 : 0);
   const TileScene tile_scene{accelerator, options, camera, look,
                              kOcclusionReach * diagonal(accelerator.scene())};
 
@@ -121,7 +115,7 @@ RenderResult render(const Accelerator& accelerator, const RenderOptions& options
     const int x = static_cast<int>(first % static_cast<std::size_t>(columns)) * kTile;
     const int y = static_cast<int>(first / static_cast<std::size_t>(columns)) * kTile;
     const RayStats part =
-        TileRenderer(tile_scene, result.image, values)
+        TileRenderer(tile_scene, result.image, result.values)
             .render({x, y, std::min(x + kTile, width), std::min(y + kTile, height)});
     double fraction = 0.0;
     {
@@ -133,7 +127,8 @@ RenderResult render(const Accelerator& accelerator, const RenderOptions& options
   });
   result.primary_rays = stats.primary_rays, result.primary_hits = stats.primary_hits;
   result.rays = stats.rays, result.hits = stats.hits;
-  if (is_value(options.mode)) color_values(values, options.mode, result);
+  if (shows_one_number(options.mode))
+    options.mode == RenderMode::depth ? color_depth(result) : color_heat(result);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <strahl/catalog/accelerator.h>
 #include <strahl/io/image.h>
@@ -14,9 +15,9 @@
 namespace strahl {
 
 /// shaded: material colours, lamps and soft occlusion; normals: as colours; depth: near is bright;
-/// ao: ambient occlusion; path: diffuse light transport under a sky; cost: node and primitive
-/// tests of the centre ray; steps: its traversal steps and leaves.
-enum class RenderMode { shaded, normals, depth, ao, path, cost, steps };
+/// ao: ambient occlusion; path: diffuse light transport under a sky; steps: traversal steps and
+/// leaves of the centre ray; tests: its primitive tests; cost: both and tests of bounding volumes.
+enum class RenderMode { shaded, normals, depth, ao, path, cost, steps, tests };
 
 /// The mode of that name; nothing for another word.
 std::optional<RenderMode> render_mode(std::string_view name);
@@ -35,10 +36,11 @@ struct RenderResult {
   Image image;
   std::uint64_t primary_rays = 0, primary_hits = 0;
   std::uint64_t rays = 0, hits = 0;         ///< with secondary rays
-  double value_min = 0.0, value_max = 0.0;  ///< what the colours of depth, cost and steps span
+  double value_min = 0.0, value_max = 0.0;  ///< what the colours of a mode of one number span
+  std::vector<float> values;                ///< that number per pixel: depth, cost, steps, tests
 };
 
-/// Number of samples per pixel that options ask for. depth, cost and steps always have one.
+/// Number of samples per pixel that options ask for. Modes of one number always have one.
 int sample_count(const RenderOptions& options);
 
 /// Renders. Throws Error: usage for an impossible view, more samples than 65536 or an image above

@@ -109,7 +109,7 @@ TEST(Render, ProgressReturningFalseCancels) {
 
 TEST(Render, EmptySceneShowsTheBackground) {
   const auto scene = std::make_shared<const Scene>(SceneData{});
-  for (const char* mode : {"shaded", "normals", "depth", "ao", "path", "cost", "steps"}) {
+  for (const char* mode : {"shaded", "normals", "depth", "ao", "path", "cost", "steps", "tests"}) {
     const RenderResult result =
         render(*build(scene, kDefaultSpec), small_options(*scene, *render_mode(mode)));
     EXPECT_EQ(result.primary_hits, 0u) << mode;

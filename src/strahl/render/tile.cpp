@@ -15,9 +15,12 @@ constexpr double kPointError = 0x1p-48;
 
 enum Purpose { kLens, kOcclusion, kBounce };
 
-/// Whether the mode shows one number of the ray through the centre.
-bool is_value(RenderMode mode) {
-  return mode == RenderMode::depth || mode == RenderMode::cost || mode == RenderMode::steps;
+/// The number that a heat map shows of a ray's work.
+std::uint64_t shown_of(const Counters& work, RenderMode mode) {
+  const std::uint64_t steps = work.traversal_steps + work.leaves;
+  if (mode == RenderMode::steps) return steps;
+  if (mode == RenderMode::tests) return work.primitives;
+  return steps + work.bounding_volumes + work.primitives;
 }
 
 }  // namespace
@@ -91,7 +94,7 @@ void TileRenderer::shade(int sample, int samples) {
       std::count_if(hits_.begin(), hits_.end(), [](const Hit& hit) { return hit.is_hit(); }));
   stats_.add({hits_.size(), found, hits_.size(), found});
   const RenderMode mode = scene_.options.mode;
-  if (is_value(mode)) {
+  if (shows_one_number(mode)) {
     for (std::size_t i = 0; i < hits_.size(); ++i) record_value(i);
   } else if (mode == RenderMode::normals) {
     for (std::size_t i = 0; i < hits_.size(); ++i) {
@@ -118,10 +121,7 @@ void TileRenderer::record_value(std::size_t i) {
   Hit hit;
   const Counters work =
       scene_.accelerator.closest_hit(make_batch({&ray, 1}), {&hit, 1}, counting).counters;
-  const std::uint64_t steps = work.traversal_steps + work.leaves;
-  value = static_cast<float>(scene_.options.mode == RenderMode::steps
-                                 ? steps
-                                 : steps + work.bounding_volumes + work.primitives);
+  value = static_cast<float>(shown_of(work, scene_.options.mode));
 }
 
 void TileRenderer::occlude(int sample, int samples) {

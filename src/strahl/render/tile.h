@@ -13,6 +13,11 @@
 
 namespace strahl {
 
+/// Whether the mode shows one number of the ray through the centre.
+constexpr bool shows_one_number(RenderMode mode) {
+  return mode >= RenderMode::cost || mode == RenderMode::depth;
+}
+
 /// Pixels [x0, x1) x [y0, y1).
 struct TileRect {
   int x0, y0, x1, y1;
@@ -37,7 +42,7 @@ struct TileScene {
 
 class TileRenderer {
  public:
-  /// values receives one number per pixel in modes depth, cost and steps.
+  /// values receives one number per pixel in modes that show one.
   TileRenderer(const TileScene& scene, Image& image, std::vector<float>& values);
 
   /// Renders the tile. Other tiles may be rendered into the same image at the same time.
