@@ -6,7 +6,8 @@ set -euo pipefail
 packages=(g++ cmake ninja-build pkgconf ccache git python3 libhwy-dev libtbb-dev libqhull-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libpng-dev libopenexr-dev libzip-dev)
 development=(clang clang-format clang-tidy libclang-rt-14-dev libgtest-dev librapidcheck-dev
-  libboost-dev libcgal-dev libbenchmark-dev libembree-dev python3-numpy)
+  libboost-dev libcgal-dev libbenchmark-dev libembree-dev python3-numpy
+  gnuplot-nox chromium)
 case "${1:-}" in
   --build-only) ;;
   "") packages+=("${development[@]}") ;;

@@ -2,7 +2,11 @@
 //
 // Each scene's results go to a file of their own in the output folder as soon as they are there; a
 // second run with the same options takes them from it, so an interrupted comparison goes on.
+#include <algorithm>
+#include <apps/strahl/arguments.h>
 #include <apps/strahl/commands.h>
+#include <apps/strahl/compare_page.h>
+#include <apps/strahl/compare_summary.h>
 #include <apps/strahl/compare_text.h>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +17,9 @@
 #include <strahl/base/hash.h>
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/atomic_file.h>
+#include <strahl/io/png.h>
 #include <strahl/render/framing.h>
+#include <strahl/render/heat_map.h>
 
 namespace strahl::cli {
 namespace {
@@ -21,6 +27,7 @@ namespace {
 struct CompareOptions : CommonOptions {
   std::vector<std::string> scenes;
   std::string structures = "all", workloads = "primary,shadow,ao,diffuse,random", output;
+  std::string maps = "256x192";  ///< or "none"
   ComparisonOptions comparison;
   CompareOptions() { threads = 1; }
 };
@@ -57,7 +64,8 @@ Json options_json(const CompareOptions& options) {
   return {{"structures", c.specs}, {"workloads", workloads},
           {"rays", c.rays},        {"min_rays", c.min_rays},
           {"repeats", c.repeats},  {"seconds_per_cell", c.seconds_per_cell},
-          {"seed", c.seed},        {"threads", options.threads}};
+          {"seed", c.seed},        {"threads", options.threads},
+          {"maps", options.maps}};
 }
 
 void write_text(const std::filesystem::path& path, const std::string& text) {
@@ -84,11 +92,51 @@ std::optional<Json> earlier(const std::filesystem::path& path) {
   return json;
 }
 
-void write_results(const CompareOptions& options, const Json& document) {
+/// Writes the numbers that are known so far.
+void write_results(const CompareOptions& options, Json& document) {
   const std::filesystem::path folder(options.output);
+  document["summary"] = compare_summary(document["scenes"]);
   write_text(folder / "compare.json", document.dump(2) + "\n");
   write_text(folder / "compare.csv", compare_csv(document));
   write_text(folder / "compare.md", compare_markdown(document));
+}
+
+void write_page(const CompareOptions& options, Session& session, const Json& document) {
+  const std::filesystem::path folder(options.output);
+  const std::vector<Chart> charts = compare_charts(document);
+  if (!draw_charts(charts, folder / "charts"))
+    session.warn("gnuplot is not installed: the page has no charts");
+  write_text(folder / "compare.html", compare_page(document, charts, folder));
+}
+
+double largest_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
+  double scale = 0.0;
+  for (const ComparisonRow& row : comparison.rows)
+    scale = std::max(scale, heat_scale(row.maps.*map));
+  return scale;
+}
+
+/// Writes the heat maps of a scene and tells the rows of its results where they are.
+void write_maps(const CompareOptions& options, const SceneComparison& comparison,
+                const std::string& prefix, Json& rows) {
+  const ComparisonOptions& c = options.comparison;
+  if (c.map_width == 0) return;
+  const std::filesystem::path folder(options.output);
+  std::filesystem::create_directories(folder / "maps");
+  const double steps = largest_scale(comparison, &WorkMaps::steps),
+               tests = largest_scale(comparison, &WorkMaps::tests);
+  const WorkMaps& first = comparison.rows.front().maps;
+  for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+    const WorkMaps& maps = comparison.rows[i].maps;
+    const auto write = [&](const char* kind, std::vector<float> rgb) {
+      const std::string name = fmt::format("maps/{}_{}_{}.png", prefix, i, kind);
+      write_png(folder / name, {c.map_width, c.map_height, std::move(rgb), {}, {}});
+      rows[i]["maps"][kind] = name;
+    };
+    write("steps", heat_map(maps.steps, steps));
+    write("tests", heat_map(maps.tests, tests));
+    write("difference", difference_map(maps.tests, first.tests, tests));
+  }
 }
 
 Json compare_scene(const CompareOptions& options, Session& session, const std::string& name) {
@@ -98,6 +146,7 @@ Json compare_scene(const CompareOptions& options, Session& session, const std::s
   const SceneComparison comparison = compare_structures(scene, default_view(*scene, 512, 512),
                                                         options.comparison, session.context());
   Json json = to_json(comparison, *scene);
+  write_maps(options, comparison, part.stem().string(), json["structures"]);
   write_text(part, json.dump(2) + "\n");
   return json;
 }
@@ -105,6 +154,10 @@ Json compare_scene(const CompareOptions& options, Session& session, const std::s
 int run_compare(CompareOptions& options) {
   options.comparison.specs = specs_of(options.structures);
   options.comparison.workloads = workloads_of(options.workloads);
+  if (options.maps != "none") {
+    const ImageSize size = parse_image_size(options.maps, "--maps");
+    options.comparison.map_width = size.width, options.comparison.map_height = size.height;
+  }
   Session session(options);
   std::filesystem::create_directories(std::filesystem::path(options.output) / "parts");
   Json document = {{"options", options_json(options)}, {"scenes", Json::array()}};
@@ -112,6 +165,7 @@ int run_compare(CompareOptions& options) {
     document["scenes"].push_back(compare_scene(options, session, name));
     write_results(options, document);
   }
+  write_page(options, session, document);
   session.finish_progress();
   options.json ? print_json(document) : print_text(compare_markdown(document));
   return kExitOk;
@@ -123,11 +177,10 @@ void add_compare_command(CLI::App& app, Runner& run) {
   CLI::App* command =
       app.add_subcommand("compare", "Structures beside each other on the same scenes and rays");
   command->footer(
-      "Writes DIR/compare.json, compare.csv and compare.md. Runs of all structures alternate; "
-      "every\n"
-      "answer is compared bit by bit (exit code 1 if two differ). An interrupted run goes on "
-      "where\n"
-      "it was. Groups of structures: all (but brute_force), classic.\n"
+      "Writes DIR/compare.json, compare.csv, compare.md and compare.html, one file with ranks,\n"
+      "charts (by gnuplot) and heat maps. Runs of all structures alternate; every answer is\n"
+      "compared bit by bit (exit code 1 if two differ). An interrupted run goes on where it was.\n"
+      "Groups of structures: all (but brute_force), classic.\n"
       "Workloads: primary shadow ao diffuse random whitted.\n"
       "Examples:\n"
       "  strahl compare gen:balls:4 bunny.ply --structures bvh,kd_tree,grid -o results\n"
@@ -151,6 +204,8 @@ void add_compare_command(CLI::App& app, Runner& run) {
       ->add_option("--budget", c.seconds_per_cell,
                    "Seconds for all repeats of one structure on one workload")
       ->check(CLI::Range(0.001, 1e6));
+  command->add_option("--maps", options->maps, "Size of heat maps, or none (default: 256x192)")
+      ->type_name("WxH");
   command->add_option("--seed", c.seed, "Of the random numbers in rays");
   command->add_option("-o,--output", options->output, "Folder of results")
       ->required()

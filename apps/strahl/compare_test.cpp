@@ -1,5 +1,6 @@
 // apps/strahl/compare_test.cpp - `strahl compare`: results, resumption, refusals.
 #include <apps/strahl/run_test.h>
+#include <cstdlib>
 #include <string>
 
 namespace strahl::cli {
@@ -11,7 +12,14 @@ class CompareCommand : public test::CommandTest {};
 
 constexpr const char* kSmall =
     " --structures bvh,kd_tree:split=median,axis=round_robin,grid --workloads random,shadow"
-    " --rays 500 --repeat 2 --json -o out";
+    " --rays 500 --repeat 2 --maps 24x16 --json -o out";
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
 
 TEST_F(CompareCommand, WritesTheSameResultsAsJsonCsvAndMarkdown) {
   const Finished finished = run("compare gen:balls:1 gen:tetra:3" + std::string(kSmall));
@@ -36,6 +44,44 @@ TEST_F(CompareCommand, WritesTheSameResultsAsJsonCsvAndMarkdown) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 3 * 2);
   EXPECT_NE(csv.find("\"kd_tree:split=median,axis=round_robin\",random"), std::string::npos);
   EXPECT_NE(folder_.read("out/compare.md").find("## gen:tetra:3"), std::string::npos);
+}
+
+TEST_F(CompareCommand, RanksStructuresOverScenes) {
+  const Finished finished = run("compare gen:balls:1 gen:tetra:3" + std::string(kSmall));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  for (const auto& workload : finished.json()["summary"]["workloads"]) {
+    double ranks = 0.0;
+    int wins = 0;
+    for (const auto& structure : workload["structures"]) {
+      ranks += structure["mean_rank"].get<double>(), wins += structure["wins"].get<int>();
+      EXPECT_GE(structure["worst_to_best"], 1.0);
+    }
+    EXPECT_DOUBLE_EQ(ranks, 6.0);
+    EXPECT_EQ(wins, 2);
+    EXPECT_GT(workload["critical_difference"], 0.0);
+  }
+  EXPECT_NE(folder_.read("out/compare.md").find("## Ranks: shadow"), std::string::npos);
+}
+
+TEST_F(CompareCommand, PutsChartsAndHeatMapsIntoOnePage) {
+  const Finished finished = run("compare gen:balls:1" + std::string(kSmall));
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  const std::string page = folder_.read("out/compare.html");
+  EXPECT_EQ(count(page, "<img class=\"map\""), 3u * 3u);
+  EXPECT_EQ(count(page, "src=\"data:image/"), count(page, "<img "));  // nothing is elsewhere
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  const bool has_gnuplot = std::system("gnuplot --version > /dev/null 2>&1") == 0;
+  EXPECT_EQ(count(page, "<img class=\"chart\""), has_gnuplot ? 2u * 3u + 1u : 0u);
+  EXPECT_NE(finished.json()["scenes"][0]["structures"][2]["maps"]["tests"], "");
+}
+
+TEST_F(CompareCommand, OneStructureWithoutMapsIsEnough) {
+  const Finished finished =
+      run("compare gen:balls:1 --structures bvh --workloads random --rays 200 --repeat 1"
+          " --maps none --json -o out");
+  ASSERT_EQ(finished.code, 0) << finished.err;
+  EXPECT_FALSE(finished.json()["scenes"][0]["structures"][0].contains("maps"));
+  EXPECT_EQ(finished.json()["summary"]["workloads"][0]["structures"][0]["mean_rank"], 1.0);
 }
 
 TEST_F(CompareCommand, GoesOnWhereItWasUnlessSomethingElseIsAsked) {

@@ -1,11 +1,12 @@
 #include <algorithm>
+#include <apps/strahl/compare_summary.h>
 #include <apps/strahl/compare_text.h>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include <strahl/base/hash.h>
-#include <strahl/measure/statistics.h>
+#include <strahl/measure/ranking.h>
 
 namespace strahl::cli {
 namespace {
@@ -35,6 +36,16 @@ std::vector<double> per_ray_seconds(const ComparisonCell& cell) {
   return seconds;
 }
 
+CostLine cost_line(const ComparisonRow& row, const ComparisonCell& cell) {
+  return {row.build.seconds, median(per_ray_seconds(cell))};
+}
+
+/// Rays after which the structure has paid against the first; null when it never does.
+Json break_even_json(const ComparisonRow& row, const ComparisonRow& first, std::size_t w) {
+  const auto rays = break_even(cost_line(row, row.cells[w]), cost_line(first, first.cells[w]));
+  return rays ? Json(*rays) : Json(nullptr);
+}
+
 /// @param first the same workload on the first structure
 Json cell_json(const ComparisonCell& cell, const ComparisonCell& first) {
   const Estimate slowdown = median_ratio(per_ray_seconds(cell), per_ray_seconds(first));
@@ -49,8 +60,10 @@ Json cell_json(const ComparisonCell& cell, const ComparisonCell& first) {
 
 Json row_json(const ComparisonRow& row, const ComparisonRow& first, std::uint32_t primitives) {
   Json cells = Json::array();
-  for (std::size_t w = 0; w < row.cells.size(); ++w)
+  for (std::size_t w = 0; w < row.cells.size(); ++w) {
     cells.push_back(cell_json(row.cells[w], first.cells[w]));
+    cells.back()["break_even"] = break_even_json(row, first, w);
+  }
   Json build = to_json(row.build);
   build["bytes_per_primitive"] =
       static_cast<double>(row.build.bytes) / std::max<std::uint32_t>(primitives, 1);
@@ -138,6 +151,7 @@ std::string compare_markdown(const Json& document) {
       "# Comparison\n\nTime: of a ray, relative to `{}`, with the 95 % interval over repeats. "
       "Steps (N_TS), leaves or cells (N_ETS) and primitive tests (N_IT) are per ray.\n\n",
       first());
+  text += summary_markdown(document["summary"]);
   for (const Json& scene : document["scenes"]) text += scene_table(scene);
   return text;
 }

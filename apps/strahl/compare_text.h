@@ -14,7 +14,7 @@ Json to_json(const SceneComparison& comparison, const Scene& scene);
 /// One line per scene, structure and workload.
 std::string compare_csv(const Json& document);
 
-/// One table per scene.
+/// Ranks per workload and one table per scene.
 std::string compare_markdown(const Json& document);
 
 }  // namespace strahl::cli

@@ -7,6 +7,7 @@
 #include <strahl/base/timer.h>
 #include <strahl/catalog/catalog.h>
 #include <strahl/measure/comparison.h>
+#include <strahl/render/render.h>
 
 namespace strahl {
 namespace {
@@ -70,7 +71,7 @@ class Comparison {
     if (options.specs.empty()) throw Error(ErrorCode::usage, "no structure to compare", "compare");
     for (const std::string& spec : options.specs) {
       built_.push_back(build(scene, spec, context));
-      result_.rows.push_back({built_.back()->spec(), built_.back()->report(), {}});
+      result_.rows.push_back({built_.back()->spec(), built_.back()->report(), {}, {}});
     }
   }
 
@@ -81,6 +82,8 @@ class Comparison {
           make_workload(options_.workloads[w], *built_.front(), wanted, context_);
       measure(workload, static_cast<double>(w) / static_cast<double>(options_.workloads.size()));
     }
+    if (options_.map_width > 0)
+      for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].maps = draw(*built_[i], view);
     // Some build on while rays are traced.
     for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].build = built_[i]->report();
     return std::move(result_);
@@ -104,6 +107,18 @@ class Comparison {
         context_.check(done, std::string("timing, ") + name_of(workload.kind));
         time(i, selections[i], expected);
       }
+  }
+
+  WorkMaps draw(const Accelerator& accelerator, const View& view) const {
+    RenderOptions options;
+    options.view = view;
+    options.view.width = options_.map_width, options.view.height = options_.map_height;
+    WorkMaps maps;
+    options.mode = RenderMode::steps;
+    maps.steps = render(accelerator, options, context_).values;
+    options.mode = RenderMode::tests;
+    maps.tests = render(accelerator, options, context_).values;
+    return maps;
   }
 
   void summarize(const Workload& workload, const Answers& answers) {

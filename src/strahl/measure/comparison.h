@@ -23,6 +23,12 @@ struct ComparisonOptions {
   int repeats = 5;
   double seconds_per_cell = 2.0;  ///< that all repeats of one structure on one workload may take
   std::uint64_t seed = 1;
+  int map_width = 0, map_height = 0;  ///< of heat maps from the view; 0: none
+};
+
+/// Work of the rays through the pixels' centres, row by row from the top; empty without maps.
+struct WorkMaps {
+  std::vector<float> steps, tests;
 };
 
 /// One structure on one workload.
@@ -38,6 +44,7 @@ struct ComparisonRow {
   std::string spec;
   BuildReport build;                  ///< after all rays
   std::vector<ComparisonCell> cells;  ///< in the order of the workloads
+  WorkMaps maps;
 };
 
 /// What a workload is like, by the answers to it.

@@ -71,6 +71,19 @@ TEST(Comparison, ASlowStructureIsAskedFewerRays) {
   EXPECT_GT(c.rows[0].cells[0].rays, 640u);
 }
 
+TEST(Comparison, DrawsTheWorkOfEveryStructureFromTheView) {
+  const auto scene = scene_of("balls:2");
+  ComparisonOptions options = small_options();
+  options.workloads = {WorkloadKind::random}, options.map_width = 8, options.map_height = 6;
+  const SceneComparison c = compare_structures(scene, *scene->data().view, options);
+  for (const ComparisonRow& row : c.rows) {
+    ASSERT_EQ(row.maps.steps.size(), 48u);
+    ASSERT_EQ(row.maps.tests.size(), 48u);
+  }
+  EXPECT_EQ(c.rows[2].maps.tests, std::vector<float>(48, static_cast<float>(scene->size())));
+  EXPECT_NE(c.rows[0].maps.tests, c.rows[1].maps.tests);
+}
+
 TEST(Comparison, CanBeCancelledAndRefusesNothingToCompare) {
   const auto scene = scene_of("tetra:3");
   ComparisonOptions options = small_options();

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <apps/strahl/compare_charts.h>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <fmt/core.h>
+
+#include <strahl/base/error.h>
+#include <strahl/io/atomic_file.h>
+
+namespace strahl::cli {
+namespace {
+
+std::string text_of(const Json& json) { return json.get<std::string>(); }
+
+/// In gnuplot's double quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string head(const std::string& name, const std::string& title, const std::string& x,
+                 const std::string& y) {
+  return fmt::format(
+      "set terminal svg size 760,460 dynamic background rgb 'white' font 'Helvetica,13'\n"
+      "set output '{}.svg'\nset termoption noenhanced\nset title {}\nset xlabel {}\n"
+      "set ylabel {}\nset grid lc rgb '#dddddd'\nset key outside right top\n",
+      name, quoted(title), quoted(x), quoted(y));
+}
+
+std::string color(std::size_t i) {
+  static constexpr const char* kColors[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
+                                            "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
+  return fmt::format("lc rgb '{}'", kColors[i % std::size(kColors)]);
+}
+/// Of structure i, distinct for a few dozen.
+std::string line(std::size_t i) { return color(i) + fmt::format(" lw 1.6 dt {}", 1 + i / 10); }
+std::string point(std::size_t i) { return color(i) + fmt::format(" pt {} ps 0.8", 4 + i % 11); }
+
+enum class Marks { lines, points, both };
+
+/// "plot" of data blocks $d0, $d1, ... titled by structure.
+std::string plot_blocks(const Json& rows, Marks marks) {
+  std::string text = "plot ";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string with = marks == Marks::lines    ? "lines " + line(i)
+                             : marks == Marks::points ? "points " + point(i)
+                                                      : "linespoints lw 1.6 " + point(i);
+    text += fmt::format("{}$d{} using 1:2 with {} title {}", i > 0 ? ", " : "", i, with,
+                        quoted(text_of(rows[i]["spec"])));
+  }
+  return text + "\n";
+}
+
+std::string block(std::size_t i, const std::vector<std::pair<double, double>>& points) {
+  std::string text = fmt::format("$d{} << EOD\n", i);
+  for (const auto& [x, y] : points) text += fmt::format("{:.6g} {:.6g}\n", x, y);
+  return text + "EOD\n";
+}
+
+/// Some room on both sides, which one scene alone would not give.
+std::string size_range(const Json& scenes) {
+  double least = 1e18, most = 1.0;
+  for (const Json& scene : scenes) {
+    const double size = std::max(scene["primitives"].get<double>(), 1.0);
+    least = std::min(least, size), most = std::max(most, size);
+  }
+  return fmt::format("set xrange [{:.6g}:{:.6g}]\n", least / 2, most * 2);
+}
+
+Chart size_chart(const Json& scenes, std::size_t w, const std::string& workload) {
+  const std::string name = "size_" + workload, title = "Time per ray over scene size: " + workload;
+  std::string script = head(name, title, "primitives", "nanoseconds per ray") + size_range(scenes) +
+                       "set logscale xy\n";
+  const Json& rows = scenes[0]["structures"];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::vector<std::pair<double, double>> points;
+    for (const Json& scene : scenes)
+      points.emplace_back(scene["primitives"].get<double>(),
+                          1e3 / scene["structures"][i]["workloads"][w]["mrays"].get<double>());
+    std::sort(points.begin(), points.end());
+    script += block(i, points);
+  }
+  return {name, title, script + plot_blocks(rows, Marks::both)};
+}
+
+/// Bars of mean ranks; those whose whisker, half the critical difference to each side, overlap
+/// cannot be told apart.
+Chart rank_chart(const Json& summary) {
+  const std::string workload = text_of(summary["workload"]);
+  const std::string name = "ranks_" + workload, title = "Mean rank (1 is fastest): " + workload;
+  const Json& structures = summary["structures"];
+  const double half = summary["critical_difference"].get<double>() / 2;
+  std::string ticks, data = "$d << EOD\n";
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    const double rank = structures[i]["mean_rank"].get<double>();
+    ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(text_of(structures[i]["spec"])), i);
+    data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", rank, i, rank - half, rank + half);
+  }
+  return {name, title,
+          head(name, title, "mean rank, with half the critical difference (5 %) to each side", "") +
+              fmt::format("set ytics ({})\nset yrange [{}.5:-0.5]\nset key off\n", ticks,
+                          structures.size() - 1) +
+              data +
+              "EOD\nplot $d using 1:2:3:4 with xerrorbars lc rgb '#1f77b4' pt 7 lw 1.6 ps 0.9\n"};
+}
+
+double geometric_mean_over(const Json& scenes, const std::function<double(const Json&)>& value) {
+  double sum = 0.0;
+  for (const Json& scene : scenes) sum += std::log(std::max(value(scene), 1e-12));
+  return std::exp(sum / static_cast<double>(scenes.size()));
+}
+
+Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workload) {
+  const std::string name = "memory_" + workload, title = "Memory against speed: " + workload;
+  std::string script = head(name, title, "bytes per primitive (geometric mean over scenes)",
+                            "million rays per second (geometric mean)") +
+                       "set logscale xy\n";
+  const Json& rows = scenes[0]["structures"];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double bytes = geometric_mean_over(scenes, [&](const Json& scene) {
+      return scene["structures"][i]["build"]["bytes_per_primitive"].get<double>();
+    });
+    const double speed = geometric_mean_over(scenes, [&](const Json& scene) {
+      return scene["structures"][i]["workloads"][w]["mrays"].get<double>();
+    });
+    script += block(i, {{std::max(bytes, 0.1), speed}});
+  }
+  return {name, title, script + plot_blocks(rows, Marks::points)};
+}
+
+/// Where two lines cross, the dearer build has paid.
+Chart total_chart(const Json& scene, std::size_t number) {
+  const std::string name = fmt::format("total_{}", number),
+                    title = "Build and rays together: " + text_of(scene["scene"]);
+  std::string script = head(name, title, "rays of all workloads alike", "seconds") +
+                       "set logscale xy\nset format x '1e%T'\n";
+  const Json& rows = scene["structures"];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    double per_ray = 0.0;
+    for (const Json& cell : rows[i]["workloads"])
+      per_ray +=
+          1e-6 / cell["mrays"].get<double>() / static_cast<double>(rows[i]["workloads"].size());
+    std::vector<std::pair<double, double>> points;
+    for (double rays = 1e3; rays < 2e9; rays *= std::sqrt(10.0))
+      points.emplace_back(rays, rows[i]["build"]["seconds"].get<double>() + rays * per_ray);
+    script += block(i, points);
+  }
+  script += plot_blocks(rows, Marks::lines);
+  return {name, title, script};
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
+/// Runs gnuplot on a script in the folder. Its exit status; -1 where it cannot be started.
+int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+  const std::string place = folder.string();
+  std::string name = "gnuplot", separator = "-e", change = "cd " + quoted(place);
+  std::string file = script;
+  char* arguments[] = {name.data(), separator.data(), change.data(), file.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+}  // namespace
+
+std::vector<Chart> compare_charts(const Json& document) {
+  const Json& scenes = document["scenes"];
+  std::vector<Chart> charts;
+  if (scenes.empty()) return charts;
+  const Json& workloads = document["summary"]["workloads"];
+  for (std::size_t w = 0; w < workloads.size(); ++w) {
+    const std::string workload = text_of(workloads[w]["workload"]);
+    charts.push_back(size_chart(scenes, w, workload));
+    charts.push_back(rank_chart(workloads[w]));
+    charts.push_back(memory_chart(scenes, w, workload));
+  }
+  for (std::size_t i = 0; i < scenes.size(); ++i) charts.push_back(total_chart(scenes[i], i));
+  return charts;
+}
+
+bool draw_charts(const std::vector<Chart>& charts, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  bool has_gnuplot = true;
+  for (const Chart& chart : charts) {
+    write_text(folder / (chart.name + ".gp"), chart.script);
+    const int status = has_gnuplot ? run_gnuplot(folder, chart.name + ".gp") : -1;
+    has_gnuplot = status != -1 && status != 127;
+    if (has_gnuplot && status != 0)
+      throw Error(ErrorCode::resource, fmt::format("gnuplot failed with status {}", status),
+                  (folder / (chart.name + ".gp")).string());
+  }
+  return has_gnuplot;
+}
+
+}  // namespace strahl::cli
