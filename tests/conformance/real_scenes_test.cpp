@@ -18,7 +18,7 @@ namespace strahl::test {
 namespace {
 
 constexpr std::uint64_t kSeed = 44;
-constexpr std::uintmax_t kSmallFile = 256 * 1024;
+const std::uintmax_t kSmallFile = is_smoke_run() ? 32 * 1024 : 256 * 1024;
 constexpr std::uint32_t kHuge = 200'000;
 constexpr double kTestsPerQuery = 2e7;
 

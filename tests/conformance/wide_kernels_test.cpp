@@ -16,7 +16,7 @@ namespace strahl::test {
 namespace {
 
 const std::size_t kRays = is_full_run() ? 3000 : 170;
-const std::size_t kManyRays = is_full_run() ? 1'000'000 : 20'000;
+const std::size_t kManyRays = is_full_run() ? 1'000'000 : is_smoke_run() ? 2'000 : 20'000;
 
 /// Forces an instruction set for structures built during its life.
 class ForcedIsa {

@@ -17,12 +17,15 @@ inline std::filesystem::path shared_dir() {
   return from_environment != nullptr ? from_environment : STRAHL_SHARED_DEFAULT;
 }
 
-/// Whether the long forms of tests are asked for: STRAHL_CONFORMANCE=full, as `test.sh --full`
-/// sets.
-inline bool is_full_run() {
-  const char* mode = std::getenv("STRAHL_CONFORMANCE");
-  return mode != nullptr && std::string_view(mode) == "full";
+/// How thorough long tests are: STRAHL_CONFORMANCE=full, as `test.sh --full` sets for release
+/// builds, or =smoke, as the presets with sanitizers set, which look at memory and threads and are
+/// up to twenty times slower. Without it, what every change must pass.
+inline bool has_thoroughness(std::string_view mode) {
+  const char* wanted = std::getenv("STRAHL_CONFORMANCE");
+  return wanted != nullptr && wanted == mode;
 }
+inline bool is_full_run() { return has_thoroughness("full"); }
+inline bool is_smoke_run() { return has_thoroughness("smoke"); }
 
 }  // namespace strahl::test
 
