@@ -2,7 +2,9 @@
 #include <utility>
 
 #include <strahl/bounds/all_volumes.h>
+#include <strahl/structures/bvh/any_volume.h>
 #include <strahl/structures/bvh/bvh.h>
+#include <strahl/structures/bvh/volume_choice.h>
 
 namespace strahl {
 
@@ -18,6 +20,7 @@ extern template class BvhTree<HullVolume>;
 extern template class BvhTree<PrismVolume>;
 extern template class BvhTree<ShellVolume>;
 extern template class BvhTree<IntersectionVolume>;
+extern template class BvhTree<AnyVolume>;
 
 namespace {
 
@@ -35,6 +38,27 @@ std::unique_ptr<VolumeTree> make_tree(const PrimitiveSource& source, Hierarchy h
   return std::make_unique<BvhTree<V>>(std::move(hierarchy), std::move(volumes), world, cost);
 }
 
+/// Each node with the kind that the cost model prefers.
+std::unique_ptr<VolumeTree> make_auto_tree(const PrimitiveSource& source, Hierarchy hierarchy,
+                                           const SahCost& cost, const BuildContext& context) {
+  constexpr std::uint64_t kPerNode = sizeof(BvhNode<AnyVolume>) + sizeof(AnyVolume) +
+                                     sizeof(HierarchyNode) + kOwned + 2 * sizeof(VolumeAreas);
+  context.require_memory(hierarchy.nodes.size() * kPerNode, "bvh");
+  const NodeContents contents(source, hierarchy);
+  VolumeCosts costs;
+  costs.primitive *= cost.intersect / cost.traverse;
+  const std::vector<BoundingVolumeKind> kinds =
+      choose_volumes(hierarchy, measure_volumes(contents, context), costs).kinds;
+  std::vector<AnyVolume> volumes(kinds.size());
+  for_each_node(hierarchy, context, [&](std::uint32_t i) {
+    volumes[i] = with_volume_type(kinds[i],
+                                  [&]<class V>() { return AnyVolume(fit_volume<V>(contents, i)); });
+  });
+  const Aabb world = hierarchy.nodes[0].box;
+  return std::make_unique<BvhTree<AnyVolume>>(std::move(hierarchy), std::move(volumes), world,
+                                              cost);
+}
+
 }  // namespace
 
 Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
@@ -42,9 +66,12 @@ Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildConte
   Hierarchy hierarchy = build_bvh_hierarchy(source, options, context);
   if (hierarchy.nodes.empty()) return;
   const SahCost cost{options.traverse_cost, options.intersect_cost};
-  tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options.bv), [&]<class V>() {
-    return make_tree<V>(source, std::move(hierarchy), cost, context);
-  });
+  if (options.bv == BvhVolume::automatic)
+    tree_ = make_auto_tree(source, std::move(hierarchy), cost, context);
+  else
+    tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options.bv), [&]<class V>() {
+      return make_tree<V>(source, std::move(hierarchy), cost, context);
+    });
   if (traversal_ == BvhTraversal::ordered)
     ordered_boxes_ = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
 }

@@ -12,6 +12,7 @@ std::vector<std::pair<std::string, BvhVolume>> volume_words() {
   std::vector<std::pair<std::string, BvhVolume>> words;
   for (const BoundingVolumeInfo& info : kBoundingVolumes)
     words.emplace_back(info.name, static_cast<BvhVolume>(info.kind));
+  words.emplace_back("auto", BvhVolume::automatic);
   return words;
 }
 
@@ -19,7 +20,8 @@ std::vector<std::pair<std::string, BvhVolume>> volume_words() {
 
 OptionTable<BvhOptions> option_fields(const BvhOptions*) {
   return {
-      option("bv", &BvhOptions::bv, volume_words(), "bounding volume of the nodes"),
+      option("bv", &BvhOptions::bv, volume_words(),
+             "bounding volume of the nodes; auto: of each the cheapest"),
       option("builder", &BvhOptions::builder,
              {{"sah_sweep", BvhBuilder::sah_sweep}, {"sah_binned", BvhBuilder::sah_binned}},
              "how primitives are divided: exact sweep, or bins over the centres"),

@@ -5,7 +5,7 @@
 
 namespace strahl {
 
-/// One kind for all nodes, in the order of BoundingVolumeKind.
+/// One kind for all nodes, in the order of BoundingVolumeKind; or per node by its cost.
 enum class BvhVolume {
   aabb,
   sphere,
@@ -18,7 +18,8 @@ enum class BvhVolume {
   hull,
   prism,
   shell,
-  intersection
+  intersection,
+  automatic
 };
 /// In the order of the tree; nearest child first; nearest of all waiting subtrees first.
 enum class BvhTraversal { dfs, ordered, heap };

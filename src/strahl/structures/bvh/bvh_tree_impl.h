@@ -63,6 +63,7 @@ void BvhTree<V>::hash_into(Hash64& hash) const {
       static_assert(alignof(V) == sizeof(float));  // floats only: no padding
       hash.add_bytes(&node.volume, sizeof node.volume);
     } else {
+      if constexpr (requires { node.volume.kind(); }) hash.add(node.volume.kind());
       hash.add(node.volume.half_area()), hash.add(node.volume.volume());
     }
     hash.add(node.first), hash.add(node.size_and_kind);

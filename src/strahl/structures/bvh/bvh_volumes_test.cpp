@@ -21,6 +21,7 @@ const std::string kTraversals[] = {"dfs", "ordered", "heap"};
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
   for (const BoundingVolumeInfo& info : kBoundingVolumes) names.emplace_back(info.name);
+  names.emplace_back("auto");
   return names;
 }
 

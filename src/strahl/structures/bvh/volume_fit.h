@@ -54,7 +54,16 @@ void for_each_node(const Hierarchy& hierarchy, const BuildContext& context, Body
                                 });
 }
 
-/// Volumes around what `contents` says, one per node.
+/// A volume of type V around what `contents` says of a node; boxes are those of the hierarchy.
+template <BoundingVolume V>
+V fit_volume(const NodeContents& contents, std::uint32_t node) {
+  if constexpr (V::kKind == BoundingVolumeKind::aabb)
+    return V(contents.hierarchy().nodes[node].box);
+  else
+    return V::enclose(contents.of(node), FitEffort::fast);
+}
+
+/// Volumes of type V, one per node.
 template <BoundingVolume V>
 std::vector<V> fit_volumes(const NodeContents& contents, const BuildContext& context) {
   constexpr bool kMerges =
@@ -63,10 +72,7 @@ std::vector<V> fit_volumes(const NodeContents& contents, const BuildContext& con
   const std::vector<HierarchyNode>& nodes = contents.hierarchy().nodes;
   std::vector<V> volumes(nodes.size());
   for_each_node(contents.hierarchy(), context, [&](std::uint32_t i) {
-    if constexpr (V::kKind == BoundingVolumeKind::aabb)
-      volumes[i] = V(nodes[i].box);
-    else if (!kMerges || nodes[i].is_leaf())
-      volumes[i] = V::enclose(contents.of(i), FitEffort::fast);
+    if (!kMerges || nodes[i].is_leaf()) volumes[i] = fit_volume<V>(contents, i);
   });
   for (std::size_t i = nodes.size(); kMerges && i-- > 0;)
     for (std::uint32_t k = 0; k < nodes[i].children; ++k)
