@@ -72,8 +72,9 @@ Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildConte
     tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options.bv), [&]<class V>() {
       return make_tree<V>(source, std::move(hierarchy), cost, context);
     });
-  if (traversal_ == BvhTraversal::ordered)
-    ordered_boxes_ = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
+  const auto* boxes = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
+  if (boxes != nullptr && boxes->is_binary() && traversal_ == BvhTraversal::ordered)
+    binary_boxes_ = boxes;
 }
 
 void Bvh::validate(const PrimitiveSource& source) const {

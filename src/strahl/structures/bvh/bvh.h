@@ -2,7 +2,8 @@
 //
 // Papers:     [RubinWhitted1980]; kinds of volumes [Weghorst1984], [KayKajiya1986]; builders see
 //             bvh_build.h, volumes bounds/, nodes bvh_tree.h.
-// Layout:     a tree over one type of volume, chosen when it is built. Boxes visited nearest child
+// Layout:     a tree over one type of volume, chosen when it is built. Pairs of boxes visited
+// nearest
 //             first are traced by code of each query's own, all else through one virtual call per
 //             ray and one per leaf.
 // Differs from the papers: volumes are tested in double with proven margins; hits are exact.
@@ -32,8 +33,8 @@ class Bvh {
 
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    if (ordered_boxes_ != nullptr)
-      return walk(BvhView<AabbVolume, true>(*ordered_boxes_, ray), prims, ray, query, counters);
+    if (binary_boxes_ != nullptr)
+      return walk(BvhView<AabbVolume, true, 2>(*binary_boxes_, ray), prims, ray, query, counters);
     if (tree_ == nullptr) return;
     LeafQueryOf<Prims, Q, C> leaves(prims, ray, query, counters);
     tree_->trace(traversal_for<Q>(), ray, leaves, counters);
@@ -55,9 +56,9 @@ class Bvh {
     return traversal_ == BvhTraversal::heap && !narrows ? BvhTraversal::dfs : traversal_;
   }
 
-  friend class BvhBreaker;            ///< plants faults for the tests
-  std::unique_ptr<VolumeTree> tree_;  ///< null when there is nothing to hit
-  const BvhTree<AabbVolume>* ordered_boxes_ = nullptr;
+  friend class BvhBreaker;                             ///< plants faults for the tests
+  std::unique_ptr<VolumeTree> tree_;                   ///< null when there is nothing to hit
+  const BvhTree<AabbVolume>* binary_boxes_ = nullptr;  ///< the tree, if it has the fast path
   BvhTraversal traversal_;
 };
 

@@ -59,6 +59,9 @@ class BvhTree final : public VolumeTree {
   std::span<const std::uint32_t> references(const Node& leaf) const {
     return {references_.data() + leaf.first, leaf.size()};
   }
+  const std::vector<std::uint32_t>& references() const { return references_; }
+  /// Whether all inner nodes have two children.
+  bool is_binary() const { return nodes_.size() + 1 == 2 * report_.leaves; }
   const Aabb& world() const { return world_; }
 
  private:
@@ -80,25 +83,30 @@ class BvhTree final : public VolumeTree {
 
 /// A tree as one ray sees it, for the loops of traverse/. Tree and ray must outlive it.
 /// @tparam kSorts children are visited in the order of their entries, else in that of the tree
-template <class V, bool kSorts>
+/// @tparam kArity most children of a node; 2 also means no fewer
+template <class V, bool kSorts, int kArity = kBvhMaxArity>
 class BvhView {
  public:
-  static constexpr int kMaxChildren = kBvhMaxArity;
+  static constexpr int kMaxChildren = kArity;
   static constexpr int kMaxDepth = kBvhMaxDepth;
 
-  BvhView(const BvhTree<V>& tree, const PreparedRay& ray) : tree_(tree), ray_(ray, tree.world()) {}
+  BvhView(const BvhTree<V>& tree, const PreparedRay& ray)
+      : nodes_(tree.nodes().data()),
+        references_(tree.references().data()),
+        ray_(ray, tree.world()) {}
 
   NodeVisit enter(const PreparedRay& ray) const {
     return {0, node(0).volume.clip(ray_, {ray.t_enter, ray.t_exit})};
   }
   bool is_leaf(std::uint32_t i) const { return node(i).is_leaf(); }
   std::span<const std::uint32_t> references(std::uint32_t i) const {
-    return tree_.references(node(i));
+    return {references_ + node(i).first, node(i).size()};
   }
   template <class C>
   int expand(const PreparedRay&, const NodeVisit& at, NodeVisit* child, C& counters) const {
     const std::uint32_t first = node(at.node).first, size = node(at.node).size();
     counters.volume_tests(static_cast<int>(size));
+    if constexpr (kArity == 2) return expand_pair(first, at.span, child);
     int entered = 0;
     for (std::uint32_t i = first; i < first + size; ++i) {
       const Interval span = node(i).volume.clip(ray_, at.span);
@@ -113,9 +121,24 @@ class BvhView {
   }
 
  private:
-  const BvhNode<V>& node(std::uint32_t i) const { return tree_.nodes()[i]; }
+  /// The same for two children, which then stay in registers.
+  int expand_pair(std::uint32_t first, const Interval& span, NodeVisit* child) const {
+    child[0] = {first, node(first).volume.clip(ray_, span)};
+    child[1] = {first + 1, node(first + 1).volume.clip(ray_, span)};
+    const bool left = child[0].span.t_enter <= child[0].span.t_exit;
+    const bool right = child[1].span.t_enter <= child[1].span.t_exit;
+    if (left && right) {
+      if (kSorts && child[1].span.t_enter < child[0].span.t_enter) std::swap(child[0], child[1]);
+      return 2;
+    }
+    if (right) child[0] = child[1];
+    return left || right;
+  }
 
-  const BvhTree<V>& tree_;
+  const BvhNode<V>& node(std::uint32_t i) const { return nodes_[i]; }
+
+  const BvhNode<V>* nodes_;
+  const std::uint32_t* references_;
   typename V::RayData ray_;
 };
 
