@@ -8,8 +8,6 @@
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
 
-#include <cassert>
-#include <cstring>
 #include <utility>
 
 #include <strahl/bounds/bounding_volume.h>

@@ -1,6 +1,8 @@
 // structures/bvh/bvh_tree_impl.h - the definitions of BvhTree, included once per kind of volume.
 #pragma once
 
+#include <stdexcept>
+
 #include <strahl/bounds/all_volumes.h>
 #include <strahl/structures/bvh/bvh_check.h>
 #include <strahl/structures/bvh/bvh_tree.h>
@@ -15,7 +17,8 @@ BvhTree<V>::BvhTree(Hierarchy hierarchy, std::vector<V> volumes, const Aabb& wor
   std::uint64_t owned = 0;  // by the volumes besides themselves
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const HierarchyNode& from = hierarchy.nodes[i];
-    assert(from.children <= static_cast<std::uint32_t>(kBvhMaxArity));
+    if (from.children > static_cast<std::uint32_t>(kBvhMaxArity))
+      throw std::logic_error("bvh: a node of the hierarchy has too many children");
     const std::uint32_t size = from.is_leaf() ? from.count : from.children | Node::kInner;
     owned += volumes[i].bytes() - sizeof(V);
     nodes_.push_back({std::move(volumes[i]), from.first, size});
