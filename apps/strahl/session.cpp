@@ -114,7 +114,8 @@ Json to_json(const Counters& counters) {
           {"leaves", counters.leaves},
           {"empty_leaves", counters.empty_leaves},
           {"bounding_volumes", counters.bounding_volumes},
-          {"primitives", counters.primitives}};
+          {"primitives", counters.primitives},
+          {"most_waiting", counters.most_waiting}};
 }
 
 }  // namespace strahl::cli

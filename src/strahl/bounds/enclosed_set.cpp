@@ -123,23 +123,19 @@ void EnclosedSet::add(const Cone& cone) {
   capsules_.push_back({cone.base, cone.apex, wide + more});
 }
 
-void EnclosedSet::add(const Scene& scene, std::uint32_t reference) {
-  const Part& part = scene.part_of(reference);
-  const Geometry& g = scene.geometries()[part.geometry];
-  const std::uint32_t i = reference - part.first_reference;
-  if (scene.object_bounds(reference).is_empty()) return;
-  const Affine& map = scene.instances()[part.instance].to_world;
-  const bool is_placed = !scene.is_identity(part.instance);
-  if (g.kind == PrimitiveKind::triangle) {
-    const TriangleVertices t = g.mesh[i];
-    add(is_placed ? TriangleVertices{map.point(t.a), map.point(t.b), map.point(t.c)} : t);
-  } else if (is_placed) {
-    add(scene.bounds(reference));
-  } else if (g.kind == PrimitiveKind::sphere) {
-    add(g.spheres[i]);
-  } else {
-    add(g.cones[i]);
-  }
+void EnclosedSet::add(const PrimitiveSource& source, std::uint32_t i) {
+  const Aabb box = source.bounds(i);
+  if (box.is_empty()) return;
+  const Outline outline = source.outline(i);
+  const auto& ball = outline.ball;
+  if (outline.is_triangle())
+    add(TriangleVertices{ball[0].center, ball[1].center, ball[2].center});
+  else if (outline.is_sphere())
+    add(Sphere{ball[0].center, ball[0].radius});
+  else if (outline.cone != nullptr)
+    add(*outline.cone);
+  else
+    add(box);
 }
 
 void EnclosedSet::append(const EnclosedSet& other) {

@@ -18,15 +18,10 @@
 #include <utility>
 #include <vector>
 
+#include <strahl/geometry/outline.h>
 #include <strahl/geometry/scene.h>
 
 namespace strahl {
-
-/// A closed ball; radius 0 is a point.
-struct Ball {
-  Vec3d center;
-  double radius = 0.0;
-};
 
 /// Points between two concentric spheres.
 struct Layer {
@@ -52,9 +47,9 @@ class EnclosedSet {
   /// Solid, as a merged volume is.
   void add(const Ball& ball);
   void add(const Layer& layer);
-  /// A primitive as it lies in the world: curved ones under an instance by the box they are tied
-  /// to.
-  void add(const Scene& scene, std::uint32_t reference);
+  /// Thing i of a source: its triangle, sphere or cone where it is one, else the box that its hits
+  /// are tied to. Nothing for what can never be hit.
+  void add(const PrimitiveSource& source, std::uint32_t i);
   /// A corner of something solid: part of the hull without being a surface of its own. One that is
   /// not finite makes the set unbounded.
   void add_corner(const Vec3d& point);

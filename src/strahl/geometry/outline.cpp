@@ -36,6 +36,7 @@ Outline outline_of(const Sphere& sphere) {
 
 Outline outline_of(const Cone& cone) {
   Outline out;
+  out.cone = &cone;
   const Vec3d axis = cone.apex - cone.base;
   const double unit = std::max({norm_max(axis), cone.base_radius, cone.apex_radius});
   const double height = length(axis / unit);

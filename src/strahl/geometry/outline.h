@@ -30,6 +30,7 @@ struct Cone;
 struct Sphere;
 struct TriangleVertices;
 
+/// A closed ball; radius 0 is a point.
 struct Ball {
   Vec3d center;
   double radius = 0.0;
@@ -40,9 +41,12 @@ struct Ball {
 struct Outline {
   std::array<Ball, 8> ball;
   std::size_t count = 0;
+  /// What is outlined, if it is a cone; its source's own.
+  const Cone* cone = nullptr;
 
   std::span<const Ball> balls() const { return {ball.data(), count}; }
   bool is_triangle() const { return count == 3; }
+  bool is_sphere() const { return count == 1 && cone == nullptr; }
 };
 
 /// @param map world from object; a mirrored triangle keeps its front

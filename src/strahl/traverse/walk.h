@@ -67,6 +67,7 @@ void walk(const Tree& tree, Prims& prims, const PreparedRay& ray, Q& query, C& c
         std::array<NodeVisit, Tree::kMaxChildren> child;
         const int entered = tree.expand(ray, at, child.data(), counters);
         for (int i = entered - 1; i > 0; --i) waiting[count++] = child[static_cast<std::size_t>(i)];
+        counters.waiting(count);
         if (entered > 0) {
           at = child[0];
           continue;

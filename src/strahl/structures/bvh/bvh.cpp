@@ -1,55 +1,87 @@
+#include <stdexcept>
 #include <utility>
 
-#include <strahl/math/float_round.h>
+#include <strahl/bounds/all_volumes.h>
+#include <strahl/structures/bvh/any_volume.h>
 #include <strahl/structures/bvh/bvh.h>
+#include <strahl/structures/bvh/volume_choice.h>
 
 namespace strahl {
 
+extern template class BvhTree<AabbVolume>;
+extern template class BvhTree<SphereVolume>;
+extern template class BvhTree<ObbVolume>;
+extern template class BvhTree<KdopVolume<6>>;
+extern template class BvhTree<KdopVolume<14>>;
+extern template class BvhTree<KdopVolume<18>>;
+extern template class BvhTree<KdopVolume<26>>;
+extern template class BvhTree<CylinderVolume>;
+extern template class BvhTree<HullVolume>;
+extern template class BvhTree<PrismVolume>;
+extern template class BvhTree<ShellVolume>;
+extern template class BvhTree<IntersectionVolume>;
+extern template class BvhTree<AnyVolume>;
+
+namespace {
+
+/// What a hull or a prism may own besides itself.
+constexpr std::uint64_t kOwned = 12 * sizeof(FacePlane);
+
+template <class V>
+std::unique_ptr<VolumeTree> make_tree(const PrimitiveSource& source, Hierarchy hierarchy,
+                                      const SahCost& cost, const BuildContext& context) {
+  const std::uint64_t per_node = sizeof(BvhNode<V>) + sizeof(V) + sizeof(HierarchyNode) +
+                                 (std::is_trivially_copyable_v<V> ? 0 : kOwned);
+  context.require_memory(hierarchy.nodes.size() * per_node, "bvh");
+  const Aabb world = hierarchy.nodes[0].box;
+  std::vector<V> volumes = fit_volumes<V>(NodeContents(source, hierarchy), context);
+  return std::make_unique<BvhTree<V>>(std::move(hierarchy), std::move(volumes), world, cost);
+}
+
+/// Each node with the kind that the cost model prefers.
+std::unique_ptr<VolumeTree> make_auto_tree(const PrimitiveSource& source, Hierarchy hierarchy,
+                                           const SahCost& cost, const BuildContext& context) {
+  constexpr std::uint64_t kPerNode = sizeof(BvhNode<AnyVolume>) + sizeof(AnyVolume) +
+                                     sizeof(HierarchyNode) + kOwned + 2 * sizeof(VolumeAreas);
+  context.require_memory(hierarchy.nodes.size() * kPerNode, "bvh");
+  const NodeContents contents(source, hierarchy);
+  VolumeCosts costs;
+  costs.primitive *= cost.intersect / cost.traverse;
+  const std::vector<BoundingVolumeKind> kinds =
+      choose_volumes(hierarchy, measure_volumes(contents, context), costs).kinds;
+  std::vector<AnyVolume> volumes(kinds.size());
+  for_each_node(hierarchy, context, [&](std::uint32_t i) {
+    volumes[i] = with_volume_type(kinds[i],
+                                  [&]<class V>() { return AnyVolume(fit_volume<V>(contents, i)); });
+  });
+  const Aabb world = hierarchy.nodes[0].box;
+  return std::make_unique<BvhTree<AnyVolume>>(std::move(hierarchy), std::move(volumes), world,
+                                              cost);
+}
+
+}  // namespace
+
 Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : cost_{options.traverse_cost, options.intersect_cost} {
-  Hierarchy tree = build_bvh_hierarchy(source, options, context);
-  if (tree.nodes.empty()) return;
-  report_.depth = static_cast<std::uint64_t>(tree.depth());
-  nodes_.reserve(tree.nodes.size());
-  for (const HierarchyNode& node : tree.nodes) {
-    nodes_.push_back(make_node(node));
-    report_.leaves += node.is_leaf();
-  }
-  references_ = std::move(tree.references);
-  report_.nodes = nodes_.size();
-  report_.references = references_.size();
-  report_.bytes = nodes_.capacity() * sizeof(Node) + references_.capacity() * sizeof(std::uint32_t);
-  report_.sah_cost = sah_cost();
+    : traversal_(options.traversal) {
+  Hierarchy hierarchy = build_bvh_hierarchy(source, options, context);
+  if (hierarchy.nodes.empty()) return;
+  const SahCost cost{options.traverse_cost, options.intersect_cost};
+  if (options.bv == BvhVolume::automatic)
+    tree_ = make_auto_tree(source, std::move(hierarchy), cost, context);
+  else
+    tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options.bv), [&]<class V>() {
+      return make_tree<V>(source, std::move(hierarchy), cost, context);
+    });
+  const auto* boxes = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
+  if (boxes != nullptr && boxes->is_binary() && traversal_ == BvhTraversal::ordered)
+    binary_boxes_ = boxes;
 }
 
-Bvh::Node Bvh::make_node(const HierarchyNode& from) {
-  Node node{};
-  for (int axis = 0; axis < 3; ++axis) {
-    node.lo[axis] = float_below(from.box.lo[axis]);
-    node.hi[axis] = float_above(from.box.hi[axis]);
-  }
-  node.first = from.first, node.count = from.count;
-  return node;
-}
-
-double Bvh::sah_cost() const {
-  const double whole = nodes_[0].box().half_area();
-  double sum = 0.0;
-  for (const Node& node : nodes_) {
-    // Boxes beyond float's range are stored as infinite: every line is taken to meet all of them.
-    const double share = whole < Aabb::kInf ? sah_share(node.box().half_area(), whole) : 1.0;
-    sum += share * (node.count > 0 ? sah_leaf_cost(cost_, node.count) : cost_.traverse);
-  }
-  return sum / cost_.traverse;
-}
-
-void Bvh::hash_into(Hash64& hash) const {
-  for (const Node& node : nodes_) {
-    for (const float v : node.lo) hash.add(v);
-    for (const float v : node.hi) hash.add(v);
-    hash.add(node.first), hash.add(node.count);
-  }
-  hash.add(std::span<const std::uint32_t>(references_));
+void Bvh::validate(const PrimitiveSource& source) const {
+  if (tree_) return tree_->validate(source);
+  for (std::uint32_t i = 0; i < source.size(); ++i)
+    if (!source.bounds(i).is_empty())
+      throw std::logic_error("bvh: a primitive is not in exactly one leaf");
 }
 
 }  // namespace strahl

@@ -5,7 +5,24 @@
 
 namespace strahl {
 
-enum class BvhVolume { aabb };
+/// One kind for all nodes, in the order of BoundingVolumeKind; or per node by its cost.
+enum class BvhVolume {
+  aabb,
+  sphere,
+  obb,
+  kdop6,
+  kdop14,
+  kdop18,
+  kdop26,
+  cylinder,
+  hull,
+  prism,
+  shell,
+  intersection,
+  automatic
+};
+/// In the order of the tree; nearest child first; nearest of all waiting subtrees first.
+enum class BvhTraversal { dfs, ordered, heap };
 enum class BvhBuilder { sah_sweep, sah_binned };
 
 /// Costs are relative to each other; see README.md for how the defaults were measured.
@@ -16,6 +33,7 @@ struct BvhOptions {
   int leaf_size = 4;
   double traverse_cost = 1.0;
   double intersect_cost = 1.0;
+  BvhTraversal traversal = BvhTraversal::ordered;
 };
 
 OptionTable<BvhOptions> option_fields(const BvhOptions*);

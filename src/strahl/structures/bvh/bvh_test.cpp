@@ -7,30 +7,43 @@
 #include <gtest/gtest.h>
 
 #include <strahl/base/rng.h>
-#include <strahl/structures/bvh/bvh.h>
+#include <strahl/structures/bvh/bvh_breaker_test.h>
 
 namespace strahl {
 
-/// Reaches into a finished hierarchy.
-class BvhBreaker {
+namespace {
+
+/// Reaches into a finished hierarchy of boxes.
+class BoxBreaker {
  public:
-  explicit BvhBreaker(Bvh& bvh)
-      : nodes(bvh.nodes_), references(bvh.references_), report(bvh.report_), cost(bvh.cost_) {}
+  using Tree = BvhTree<AabbVolume>;
+
+  explicit BoxBreaker(Bvh& bvh) : BoxBreaker(BvhBreaker::tree<AabbVolume>(bvh)) {}
+  explicit BoxBreaker(Tree& tree)
+      : nodes(BvhBreaker::nodes(tree)),
+        references(BvhBreaker::references(tree)),
+        report(BvhBreaker::report(tree)),
+        cost(BvhBreaker::cost(tree)) {}
 
   /// Index of the first leaf of at least `count`.
   std::size_t find(std::uint32_t count) const {
     std::size_t i = 0;
-    while (nodes[i].count < count) ++i;
+    while (!nodes[i].is_leaf() || nodes[i].size() < count) ++i;
     return i;
   }
+  /// Changes a side of the box of a node, given as (lo, hi).
+  template <class Change>
+  void change_box(std::size_t node, Change change) {
+    Aabb box = nodes[node].volume.box();
+    change(box.lo, box.hi);
+    nodes[node].volume = AabbVolume(box);
+  }
 
-  std::vector<Bvh::Node>& nodes;
+  std::vector<Tree::Node>& nodes;
   std::vector<std::uint32_t>& references;
   BuildReport& report;
   SahCost& cost;
 };
-
-namespace {
 
 /// Boxes and nothing else.
 struct Boxes final : PrimitiveSource {
@@ -70,14 +83,14 @@ std::uint64_t hash_of(const Bvh& bvh) {
 }
 
 /// What validate() says of a hierarchy with a planted fault; empty when it says nothing.
-std::string verdict(const std::function<void(BvhBreaker&)>& plant) {
+std::string verdict(const std::function<void(BoxBreaker&)>& plant) {
   Boxes source = random_boxes(200, 1);
   source.boxes[17] = {};  // can never be hit
   BvhOptions options = with(BvhBuilder::sah_binned, 8);
   options.traverse_cost = 4.0;
   Bvh bvh(source, options, {});
   EXPECT_NO_THROW(bvh.validate(source));
-  BvhBreaker breaker(bvh);
+  BoxBreaker breaker(bvh);
   plant(breaker);
   try {
     bvh.validate(source);
@@ -88,76 +101,86 @@ std::string verdict(const std::function<void(BvhBreaker&)>& plant) {
 }
 
 TEST(Bvh, ValidateSeesBrokenBoxes) {
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[0].hi[1] = 0.5f; }),
-            "bvh: a box does not enclose a child's");
-  EXPECT_EQ(verdict([](BvhBreaker& b) {
-              float& side = b.nodes[b.find(1)].lo[2];
-              side = std::nextafter(side, 9.0f);
+  const std::string outside = "bvh: a volume does not enclose a primitive";
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.change_box(0, [](Vec3d&, Vec3d& hi) { hi.y = 0.5; }); }),
+            outside);
+  EXPECT_EQ(verdict([](BoxBreaker& b) {
+              b.change_box(b.find(1), [](Vec3d& lo, Vec3d&) {
+                lo.z = std::nextafter(static_cast<float>(lo.z), 9.0f);
+              });
             }),
-            "bvh: a box does not enclose a primitive");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[0].lo[0] = std::nanf(""); }),
-            "bvh: a box does not enclose a child's");
+            outside);
+  EXPECT_EQ(verdict([](BoxBreaker& b) {
+              b.change_box(0, [](Vec3d& lo, Vec3d&) { lo.x = std::nan(""); });
+            }),
+            outside);
 }
 
 TEST(Bvh, ValidateSeesBrokenLinks) {
   const std::string misplaced = "bvh: children are misplaced";
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[0].first = 0; }), misplaced);
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[0].first = ~0u; }), misplaced);
-  EXPECT_EQ(verdict([](BvhBreaker& b) {
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.nodes[0].first = 0; }), misplaced);
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.nodes[0].first = ~0u; }), misplaced);
+  EXPECT_EQ(verdict([](BoxBreaker& b) {
               b.nodes[0].first = static_cast<std::uint32_t>(b.nodes.size()) - 1;
             }),
             misplaced);
-  EXPECT_EQ(verdict([](BvhBreaker& b) {
+  EXPECT_EQ(verdict([](BoxBreaker& b) {
               b.nodes.push_back(b.nodes.back()), b.nodes.push_back(b.nodes.back());
             }),
             "bvh: a node has no parent before it");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[2].first = b.nodes[1].first; }),
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.nodes[2].first = b.nodes[1].first; }),
             "bvh: a node has two parents");
+  const std::string children = "bvh: a node has too few or too many children";
+  EXPECT_EQ(verdict([](BoxBreaker& b) { --b.nodes[0].size_and_kind; }), children);
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.nodes[0].size_and_kind += 15; }), children);
 }
 
 TEST(Bvh, ValidateSeesBrokenReferences) {
   const std::string not_one = "bvh: a primitive is not in exactly one leaf";
-  const auto leaf = [](BvhBreaker & b) -> auto& { return b.nodes[b.find(2)]; };
-  EXPECT_EQ(verdict([&](BvhBreaker& b) { --leaf(b).count; }), not_one);
-  EXPECT_EQ(verdict([&](BvhBreaker& b) { ++leaf(b).first, --leaf(b).count; }), not_one);
-  EXPECT_EQ(verdict([&](BvhBreaker& b) { leaf(b).count = ~0u; }),
+  const auto leaf = [](BoxBreaker & b) -> auto& { return b.nodes[b.find(2)]; };
+  EXPECT_EQ(verdict([&](BoxBreaker& b) { --leaf(b).size_and_kind; }), not_one);
+  EXPECT_EQ(verdict([&](BoxBreaker& b) { ++leaf(b).first, --leaf(b).size_and_kind; }), not_one);
+  EXPECT_EQ(verdict([&](BoxBreaker& b) { leaf(b).size_and_kind = 0x7fffffffu; }),
             "bvh: a leaf's references are out of range");
-  EXPECT_EQ(verdict([&](BvhBreaker& b) {
+  EXPECT_EQ(verdict([&](BoxBreaker& b) {
               const std::uint32_t first = leaf(b).first;
               std::swap(b.references[first], b.references[first + 1]);
             }),
             "bvh: references of a leaf do not ascend");
-  EXPECT_EQ(verdict([&](BvhBreaker& b) {
+  EXPECT_EQ(verdict([&](BoxBreaker& b) {
               b.references[leaf(b).first + 1] = b.references[leaf(b).first];
             }),
             "bvh: references of a leaf do not ascend");
-  EXPECT_EQ(verdict([&](BvhBreaker& b) { b.references[leaf(b).first + leaf(b).count - 1] = 200; }),
+  EXPECT_EQ(verdict([&](BoxBreaker& b) { b.references[leaf(b).first + leaf(b).size() - 1] = 200; }),
             "bvh: a reference is out of range");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.references.push_back(3); }),
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.references.push_back(3); }),
             "bvh: references are in no leaf");
 }
 
 TEST(Bvh, ValidateSeesWhatIsNeverHitInALeaf) {
-  EXPECT_EQ(verdict([](BvhBreaker& b) {
+  EXPECT_EQ(verdict([](BoxBreaker& b) {
               // A leaf all of whose references are taken over by the empty box, which fits
               // anywhere.
               auto& leaf = b.nodes[b.find(1)];
-              leaf.count = 1, b.references[leaf.first] = 17;
+              leaf.size_and_kind = 1, b.references[leaf.first] = 17;
             }),
-            "bvh: a box does not enclose a primitive");
+            "bvh: a leaf refers to what is never hit");
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.nodes[b.find(1)].size_and_kind = 0; }),
+            "bvh: a leaf is empty");
 }
 
 TEST(Bvh, ValidateSeesAWrongReport) {
-  EXPECT_EQ(verdict([](BvhBreaker& b) { ++b.report.nodes; }), "bvh: report: nodes");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { --b.report.leaves; }), "bvh: report: nodes");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { ++b.report.references; }), "bvh: report: references");
-  EXPECT_EQ(verdict([](BvhBreaker& b) { --b.report.depth; }), "bvh: report: depth");
+  EXPECT_EQ(verdict([](BoxBreaker& b) { ++b.report.nodes; }), "bvh: report: nodes");
+  EXPECT_EQ(verdict([](BoxBreaker& b) { --b.report.leaves; }), "bvh: report: nodes");
+  EXPECT_EQ(verdict([](BoxBreaker& b) { ++b.report.references; }), "bvh: report: references");
+  EXPECT_EQ(verdict([](BoxBreaker& b) { --b.report.depth; }), "bvh: report: depth");
   const std::string cost = "bvh: report: SAH cost";
   EXPECT_EQ(
-      verdict([](BvhBreaker& b) { b.report.sah_cost = std::nextafter(b.report.sah_cost, 0.0); }),
+      verdict([](BoxBreaker& b) { b.report.sah_cost = std::nextafter(b.report.sah_cost, 0.0); }),
       cost);
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.cost.traverse = 1.0; }), cost);
-  EXPECT_EQ(verdict([](BvhBreaker& b) { b.nodes[0].hi[0] += 1.0f; }), cost);
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.cost.traverse = 1.0; }), cost);
+  EXPECT_EQ(verdict([](BoxBreaker& b) { b.change_box(0, [](Vec3d&, Vec3d& hi) { hi.x += 1; }); }),
+            cost);
 }
 
 TEST(Bvh, ValidateSeesATreeThatIsTooDeep) {
@@ -165,12 +188,13 @@ TEST(Bvh, ValidateSeesATreeThatIsTooDeep) {
   for (int i = 0; i < 66; ++i) source.boxes.push_back({{0, 0, 0}, {1, 1, 1}});
   Bvh bvh(source, with(BvhBuilder::sah_binned, 1), {});
   EXPECT_NO_THROW(bvh.validate(source));
-  BvhBreaker b(bvh);
+  BoxBreaker b(bvh);
   for (std::uint32_t i = 0; i < 65; ++i) {  // a chain: one leaf and one inner node at each level
-    b.nodes[2 * i].first = 2 * i + 1, b.nodes[2 * i].count = 0;
-    b.nodes[2 * i + 1].first = i, b.nodes[2 * i + 1].count = 1;
+    b.nodes[2 * i].first = 2 * i + 1,
+                b.nodes[2 * i].size_and_kind = BoxBreaker::Tree::Node::kInner | 2;
+    b.nodes[2 * i + 1].first = i, b.nodes[2 * i + 1].size_and_kind = 1;
   }
-  b.nodes[130].first = 65, b.nodes[130].count = 1;
+  b.nodes[130].first = 65, b.nodes[130].size_and_kind = 1;
   try {
     bvh.validate(source);
     ADD_FAILURE() << "65 levels are accepted";

@@ -1,0 +1,7 @@
+#include <strahl/structures/bvh/bvh_tree_impl.h>
+
+namespace strahl {
+
+template class BvhTree<KdopVolume<14>>;
+
+}  // namespace strahl

@@ -1,0 +1,31 @@
+// structures/bvh/volume_tree.h - what a bvh holds: nodes over some kind of bounding volume.
+#pragma once
+
+#include <strahl/base/hash.h>
+#include <strahl/build/build_report.h>
+#include <strahl/geometry/primitive_source.h>
+#include <strahl/query/counters.h>
+#include <strahl/structures/bvh/bvh_options.h>
+#include <strahl/traverse/leaf_query.h>
+
+namespace strahl {
+
+/// The kind is known once per ray, behind one virtual call. Thread safety: const methods are safe
+/// from any number of threads.
+class VolumeTree {
+ public:
+  VolumeTree() = default;
+  VolumeTree(const VolumeTree&) = delete;
+  VolumeTree& operator=(const VolumeTree&) = delete;
+  virtual ~VolumeTree() = default;
+
+  virtual void trace(BvhTraversal traversal, const PreparedRay& ray, LeafQuery& leaves,
+                     NoCounters& counters) const = 0;
+  virtual void trace(BvhTraversal traversal, const PreparedRay& ray, LeafQuery& leaves,
+                     Counters& counters) const = 0;
+  virtual const BuildReport& report() const = 0;
+  virtual void validate(const PrimitiveSource& source) const = 0;
+  virtual void hash_into(Hash64& hash) const = 0;
+};
+
+}  // namespace strahl
