@@ -1,5 +1,5 @@
 // build/object_split.h - how a set of primitives is divided in two: two SAH splitters, median cut,
-// and one that divides space.
+// one that divides space and one along a curve.
 //
 // A splitter orders or sorts its primitives in place: left part first. The SAH splitters choose
 // among all three axes by the surface area heuristic; ties go to the lower cost, then the lower
@@ -73,6 +73,13 @@ enum class MedianAxis { cyclic, longest };
 /// per division, sorts the references in place. `refs` must outlive it.
 std::unique_ptr<ObjectSplitter> make_median_splitter(std::span<PrimRef> refs, MedianAxis rule,
                                                      const SahCost& cost);
+
+/// LBVH [Lauterbach2009]: at the highest bit in which the Morton codes of the centres differ
+/// (build/morton_order.h), between equal codes at the median. Costs as much as a leaf. O(log n) to
+/// find and O(n) to bound the halves per division. `refs` must outlive it; n > 0.
+std::unique_ptr<ObjectSplitter> make_morton_splitter(std::span<const PrimRef> refs,
+                                                     const SahCost& cost,
+                                                     const BuildContext& context);
 
 /// Twice the centre of a box: what all splitters sort by, without a rounding.
 inline Vec3d doubled_center(const Aabb& box) { return box.lo + box.hi; }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <strahl/build/morton_order.h>
 #include <strahl/build/object_tree.h>
 
 namespace strahl {
@@ -13,14 +14,15 @@ namespace {
 
 using namespace test;
 
-enum class Splitter { sweep, binned, cyclic, longest };
+enum class Splitter { sweep, binned, cyclic, longest, morton };
 constexpr Splitter kSplitters[] = {Splitter::sweep, Splitter::binned, Splitter::cyclic,
-                                   Splitter::longest};
+                                   Splitter::longest, Splitter::morton};
 constexpr Splitter kSahSplitters[] = {Splitter::sweep, Splitter::binned};
 
 std::unique_ptr<ObjectSplitter> make_splitter(Refs& refs, Splitter kind, const SahCost& cost) {
   if (kind == Splitter::sweep) return make_sweep_splitter(refs, cost);
   if (kind == Splitter::binned) return make_binned_splitter(refs, 32, cost);
+  if (kind == Splitter::morton) return make_morton_splitter(refs, cost, {});
   const MedianAxis axis = kind == Splitter::cyclic ? MedianAxis::cyclic : MedianAxis::longest;
   return make_median_splitter(refs, axis, cost);
 }
@@ -130,6 +132,41 @@ TEST(ObjectTree, MedianCutPutsLowerCentresToTheLeft) {
     EXPECT_LE(highest_and_lowest(tree, 1, root.right, axis).second,
               highest_and_lowest(tree, root.right, tree.nodes.size(), axis).first);
   }
+}
+
+/// The references of a radix tree over sorted codes, with a bracket around each pair.
+void write_radix_tree(std::span<const MortonPlace> places, std::vector<std::uint32_t>& out) {
+  constexpr std::uint32_t kOpen = ~0u, kClose = ~1u;
+  if (places.size() == 1) return out.push_back(places[0].index);
+  // The longest prefix that some neighbours have in common least: where it ends, sides part.
+  std::size_t split = 0;
+  int shortest = 64;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const int prefix = std::countl_zero(places[i].code ^ places[i + 1].code);
+    if (prefix < shortest) shortest = prefix, split = i + 1;
+  }
+  if (shortest == 64) split = places.size() / 2;
+  out.push_back(kOpen);
+  write_radix_tree(places.first(split), out);
+  write_radix_tree(places.subspan(split), out);
+  out.push_back(kClose);
+}
+
+void write_tree(const Tree& tree, std::size_t node, std::vector<std::uint32_t>& out) {
+  if (tree.nodes[node].is_leaf()) return out.push_back(tree.references[tree.nodes[node].first]);
+  out.push_back(~0u);
+  write_tree(tree, node + 1, out);
+  write_tree(tree, tree.nodes[node].right, out);
+  out.push_back(~1u);
+}
+
+TEST(ObjectTree, OfMortonCodesIsTheirRadixTree) {
+  Refs refs = random_refs(500, 10);
+  for (std::size_t i = 0; i < 40; ++i) refs[i].box = refs[7].box;  // equal codes
+  std::vector<std::uint32_t> expected, got;
+  write_radix_tree(morton_order(refs, {}), expected);
+  write_tree(build(refs, Splitter::morton, {kCost, 1, 64}), 0, got);
+  EXPECT_EQ(got, expected);
 }
 
 TEST(ObjectTree, IsTheSameForAnyNumberOfThreads) {
