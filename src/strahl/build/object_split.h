@@ -81,6 +81,19 @@ std::unique_ptr<ObjectSplitter> make_morton_splitter(std::span<const PrimRef> re
                                                      const SahCost& cost,
                                                      const BuildContext& context);
 
+/// Where the modeller put a reference.
+struct ScenePart {
+  std::uint32_t instance = 0, geometry = 0;
+};
+
+/// The groups of the model [RubinWhitted1980]: between instances, then between geometries, at the
+/// border nearest to the middle; inside a geometry, file order is halved. Primitives of different
+/// groups are never in one leaf. `parts` are those of the references, ascending by instance, then
+/// geometry. O(log n) to find and O(n) to bound the halves per division. Both must outlive it.
+std::unique_ptr<ObjectSplitter> make_scene_graph_splitter(std::span<const PrimRef> refs,
+                                                          std::span<const ScenePart> parts,
+                                                          const SahCost& cost);
+
 /// Twice the centre of a box: what all splitters sort by, without a rounding.
 inline Vec3d doubled_center(const Aabb& box) { return box.lo + box.hi; }
 

@@ -1,7 +1,9 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <tests/support/tree_cases.h>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -167,6 +169,33 @@ TEST(ObjectTree, OfMortonCodesIsTheirRadixTree) {
   write_radix_tree(morton_order(refs, {}), expected);
   write_tree(build(refs, Splitter::morton, {kCost, 1, 64}), 0, got);
   EXPECT_EQ(got, expected);
+}
+
+TEST(ObjectTree, OfTheSceneGraphHasEveryGroupAsANode) {
+  const Refs refs = random_refs(300, 11);
+  std::vector<ScenePart> parts;  // instances of 100, 1, 99 and 100 primitives, geometries of 10
+  for (std::uint32_t i = 0; i < 300; ++i)
+    parts.push_back({i < 100 ? 0u : i == 100 ? 1u : i < 200 ? 2u : 3u, i / 10});
+  const auto splitter = make_scene_graph_splitter(refs, parts, kCost);
+  const Tree tree = build_object_tree(*splitter, 300, box_of(refs), {kCost, 4, 64}, {});
+  TreeCheck{tree, refs, 4}.run();
+  for (std::uint32_t i = 0; i < 300; ++i) EXPECT_EQ(tree.references[i], i);  // file order
+  std::set<std::pair<std::uint32_t, std::uint32_t>> runs;  // of references, first and end
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> below(tree.nodes.size());
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    const TreeNode& node = tree.nodes[i];
+    below[i] = node.is_leaf() ? std::pair(node.first, node.first + node.count)
+                              : std::pair(below[i + 1].first, below[node.right].second);
+    runs.insert(below[i]);
+  }
+  for (const auto& group : {std::pair(0u, 100u),
+                            {100u, 101u},
+                            {101u, 200u},
+                            {200u, 300u},
+                            {10u, 20u},
+                            {101u, 110u},
+                            {290u, 300u}})
+    EXPECT_TRUE(runs.count(group)) << group.first;
 }
 
 TEST(ObjectTree, IsTheSameForAnyNumberOfThreads) {
