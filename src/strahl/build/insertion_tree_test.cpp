@@ -111,7 +111,9 @@ double least_cost_after(const Hierarchy& tree, const Aabb& box, std::uint32_t ma
 
 TEST(InsertionTree, BranchAndBoundFindsTheCheapestPlace) {
   for (const std::uint32_t most : {2u, 4u, 16u}) {
-    const Refs refs = random_refs(120, 3);
+    Refs refs = random_refs(120, 3);
+    for (std::size_t i = 0; i < refs.size(); i += 3)  // some are as large as what they lie in
+      refs[i].box.hi = refs[i].box.lo + Vec3d::all(0.1 + 0.004 * static_cast<double>(i));
     InsertionRules rules = with(InsertSearch::branch_and_bound);
     rules.max_children = most;
     for (std::size_t n = 1; n < refs.size(); ++n) {
@@ -146,6 +148,16 @@ TEST(InsertionTree, AttachesWhereEveryChildWouldBecomeAsLargeAsTheNode) {
   EXPECT_EQ(build_insertion_tree(refs, rules, {}).nodes[0].children, 3u);
   rules.max_children = 2;
   EXPECT_EQ(build_insertion_tree(refs, rules, {}).nodes[0].children, 2u);
+}
+
+TEST(InsertionTree, AttachesEverythingToTheRootWhereAnyShareIsTooLarge) {
+  const Refs refs = random_refs(12, 7);
+  for (const InsertSearch search : {InsertSearch::growth, InsertSearch::local}) {
+    InsertionRules rules = with(search);
+    EXPECT_LT(build_insertion_tree(refs, rules, {}).nodes[0].children, 12u);
+    rules.attach_share = 0.0;
+    EXPECT_EQ(build_insertion_tree(refs, rules, {}).nodes[0].children, 12u);
+  }
 }
 
 TEST(InsertionTree, ShufflesBySeed) {
