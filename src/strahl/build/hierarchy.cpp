@@ -4,6 +4,7 @@
 
 #include <strahl/build/collapse.h>
 #include <strahl/build/hierarchy.h>
+#include <strahl/build/linked_tree.h>
 
 namespace strahl {
 namespace {
@@ -85,6 +86,23 @@ Hierarchy make_hierarchy(const Tree& tree) {
     placer.add_children(to, pair);
   });
   return out;
+}
+
+Tree make_binary(const Hierarchy& hierarchy) {
+  LinkedTree linked;
+  linked.nodes.resize(hierarchy.nodes.size());
+  for (std::uint32_t i = 0; i < hierarchy.nodes.size(); ++i) {
+    const HierarchyNode& from = hierarchy.nodes[i];
+    LinkedNode& to = linked.nodes[i];
+    to.box = from.box;
+    if (from.is_leaf()) {
+      to.right = hierarchy.references[from.first];
+      continue;
+    }
+    to.left = from.first, to.right = from.first + 1;
+    linked.nodes[to.left].parent = linked.nodes[to.right].parent = i;
+  }
+  return make_tree(linked);
 }
 
 Hierarchy make_hierarchy(const Tree& tree, const Collapse& collapse) {

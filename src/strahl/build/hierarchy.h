@@ -43,6 +43,8 @@ struct Hierarchy {
 
 /// The same nodes, pairs of children in depth-first order. O(nodes).
 Hierarchy make_hierarchy(const Tree& tree);
+/// The binary tree that a hierarchy of pairs and of single references is. O(nodes).
+Tree make_binary(const Hierarchy& hierarchy);
 /// The wide nodes and blocks that the collapse chose of the tree. O(nodes).
 Hierarchy make_hierarchy(const Tree& tree, const Collapse& collapse);
 

@@ -1,5 +1,5 @@
-// build/object_split.h - how a set of primitives is divided in two: two SAH splitters and one that
-// divides space.
+// build/object_split.h - how a set of primitives is divided in two: two SAH splitters, median cut,
+// one that divides space and one along a curve.
 //
 // A splitter orders or sorts its primitives in place: left part first. The SAH splitters choose
 // among all three axes by the surface area heuristic; ties go to the lower cost, then the lower
@@ -20,7 +20,8 @@ namespace strahl {
 struct ObjectSet {
   std::size_t begin = 0, end = 0;
   Aabb box;
-  Aabb cell{};  ///< holds all centres; kept by splitters that divide space, else empty
+  Aabb cell{};   ///< holds all centres; kept by splitters that divide space, else empty
+  int turn = 0;  ///< the axis whose turn it is; kept by splitters that take them in turn
   std::size_t size() const { return end - begin; }
 };
 
@@ -63,6 +64,35 @@ std::unique_ptr<ObjectSplitter> make_sweep_splitter(std::span<const PrimRef> ref
 /// much as a leaf, so only sets too large for a leaf are divided. O(n) per division, sorts the
 /// references in place. `refs` must outlive it.
 std::unique_ptr<ObjectSplitter> make_middle_splitter(std::span<PrimRef> refs, const SahCost& cost);
+
+/// How median cut chooses the axis: x, y and z by depth, or the longest of the box of the centres.
+enum class MedianAxis { cyclic, longest };
+
+/// Median cut [KayKajiya1986]: the lower half of the centres to the left. Costs as much as a leaf,
+/// so only sets too large for a leaf are divided, into ceil(log2(n / leaf)) levels. O(n) expected
+/// per division, sorts the references in place. `refs` must outlive it.
+std::unique_ptr<ObjectSplitter> make_median_splitter(std::span<PrimRef> refs, MedianAxis rule,
+                                                     const SahCost& cost);
+
+/// LBVH [Lauterbach2009]: at the highest bit in which the Morton codes of the centres differ
+/// (build/morton_order.h), between equal codes at the median. Costs as much as a leaf. O(log n) to
+/// find and O(n) to bound the halves per division. `refs` must outlive it; n > 0.
+std::unique_ptr<ObjectSplitter> make_morton_splitter(std::span<const PrimRef> refs,
+                                                     const SahCost& cost,
+                                                     const BuildContext& context);
+
+/// Where the modeller put a reference.
+struct ScenePart {
+  std::uint32_t instance = 0, geometry = 0;
+};
+
+/// The groups of the model [RubinWhitted1980]: between instances, then between geometries, at the
+/// border nearest to the middle; inside a geometry, file order is halved. Primitives of different
+/// groups are never in one leaf. `parts` are those of the references, ascending by instance, then
+/// geometry. O(log n) to find and O(n) to bound the halves per division. Both must outlive it.
+std::unique_ptr<ObjectSplitter> make_scene_graph_splitter(std::span<const PrimRef> refs,
+                                                          std::span<const ScenePart> parts,
+                                                          const SahCost& cost);
 
 /// Twice the centre of a box: what all splitters sort by, without a rounding.
 inline Vec3d doubled_center(const Aabb& box) { return box.lo + box.hi; }

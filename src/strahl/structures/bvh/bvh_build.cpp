@@ -1,31 +1,160 @@
+#include <memory>
 #include <vector>
 
+#include <strahl/build/agglomerative.h>
+#include <strahl/build/collapse.h>
+#include <strahl/build/linked_tree.h>
 #include <strahl/build/object_tree.h>
+#include <strahl/build/optimise.h>
+#include <strahl/build/ploc.h>
+#include <strahl/geometry/scene.h>
 #include <strahl/structures/bvh/bvh_build.h>
 
 namespace strahl {
 namespace {
 
-/// What both splitters need at their peak, per primitive, and the finished tree, twice.
-constexpr std::uint64_t kSweepBytes = 3 * 4 + 1 + 8 + 4;
+/// The finished tree, twice, per primitive; and what builders need at their peak beside it.
 constexpr std::uint64_t kTreeBytes = 2 * (sizeof(TreeNode) + sizeof(HierarchyNode)) + 2 * 4;
+constexpr std::uint64_t kSweepBytes = 3 * 4 + 1 + 8 + 4;
+constexpr std::uint64_t kCurveBytes = 2 * 16;
+constexpr std::uint64_t kLinkedBytes = 2 * sizeof(LinkedNode);
+
+class BvhBuild {
+ public:
+  BvhBuild(const PrimitiveSource& source, const BvhOptions& options, const BuildContext& context)
+      : source_(source),
+        options_(options),
+        context_(context),
+        cost_{options.traverse_cost, options.intersect_cost},
+        refs_(make_prim_refs(source, context)) {
+    for (const PrimRef& ref : refs_) box_.extend(ref.box);
+  }
+
+  Hierarchy run() {
+    if (refs_.empty()) return {};
+    context_.require_memory(refs_.size() * bytes_per_primitive(), "bvh");
+    if (options_.builder == BvhBuilder::goldsmith_salmon && !is_optimised()) return insert();
+    Tree tree = bottom_up_or_divided();
+    if (!ends_in_single_primitives()) return make_hierarchy(tree);
+    if (is_optimised()) optimise(tree);
+    tree = limit_depth(std::move(tree), kBvhMaxDepth, cost_, context_);
+    return make_hierarchy(tree, Collapse(tree, collapse_rules(), context_));
+  }
+
+ private:
+  bool is_optimised() const { return options_.optimise != BvhOptimise::none; }
+  bool is_bottom_up() const {
+    return options_.builder == BvhBuilder::agglomerative || options_.builder == BvhBuilder::ploc;
+  }
+  /// Leaves are made of such trees at the end.
+  bool ends_in_single_primitives() const { return is_optimised() || is_bottom_up(); }
+
+  std::uint64_t bytes_per_primitive() const {
+    std::uint64_t bytes = sizeof(PrimRef) + kTreeBytes;
+    if (options_.builder == BvhBuilder::sah_sweep) bytes += kSweepBytes;
+    if (options_.builder == BvhBuilder::lbvh) bytes += kCurveBytes;
+    if (options_.builder == BvhBuilder::scene_graph) bytes += sizeof(ScenePart);
+    if (options_.builder == BvhBuilder::agglomerative) bytes += agglomerative_bytes(1);
+    if (options_.builder == BvhBuilder::ploc) bytes += kCurveBytes + 16;
+    if (ends_in_single_primitives())
+      bytes += kLinkedBytes + Collapse::bytes(2, kBvhMaxChildren) + kSweepBytes;
+    if (options_.optimise == BvhOptimise::reinsertion) bytes += reinsertion_bytes(1);
+    return bytes;
+  }
+
+  Tree bottom_up_or_divided() {
+    switch (options_.builder) {
+      case BvhBuilder::agglomerative:
+        return make_tree(build_agglomerative_tree(refs_, context_));
+      case BvhBuilder::ploc:
+        return make_tree(build_ploc_tree(refs_, options_.radius, context_));
+      case BvhBuilder::goldsmith_salmon:
+        return make_binary(insert());
+      default:
+        return divide();
+    }
+  }
+
+  Tree divide() {
+    const std::size_t leaf =
+        ends_in_single_primitives() ? 1 : static_cast<std::size_t>(options_.leaf_size);
+    const std::vector<ScenePart> parts = parts_of_references();
+    const auto splitter = make_splitter(parts);
+    return build_object_tree(*splitter, refs_.size(), box_, {cost_, leaf, kBvhMaxDepth}, context_);
+  }
+
+  std::unique_ptr<ObjectSplitter> make_splitter(std::span<const ScenePart> parts) {
+    switch (options_.builder) {
+      case BvhBuilder::scene_graph:
+        return make_scene_graph_splitter(refs_, parts, cost_);
+      case BvhBuilder::median_cyclic:
+        return make_median_splitter(refs_, MedianAxis::cyclic, cost_);
+      case BvhBuilder::median_longest:
+        return make_median_splitter(refs_, MedianAxis::longest, cost_);
+      case BvhBuilder::sah_sweep:
+        return make_sweep_splitter(refs_, cost_);
+      case BvhBuilder::lbvh:
+        return make_morton_splitter(refs_, cost_, context_);
+      default:
+        return make_binned_splitter(refs_, options_.bins, cost_);
+    }
+  }
+
+  /// What is not a scene, such as the contents of an instance, is one group.
+  std::vector<ScenePart> parts_of_references() const {
+    if (options_.builder != BvhBuilder::scene_graph) return {};
+    std::vector<ScenePart> parts(refs_.size());
+    const auto* scene = dynamic_cast<const Scene*>(&source_);
+    if (scene == nullptr) return parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Part& part = scene->part_of(refs_[i].reference);
+      parts[i] = {part.instance, part.geometry};
+    }
+    return parts;
+  }
+
+  Hierarchy insert() const {
+    InsertionRules rules;
+    rules.search = options_.insert_search, rules.order = options_.insert_order;
+    rules.seed = options_.seed, rules.attach_share = options_.attach_share;
+    rules.cost = cost_, rules.max_depth = kBvhMaxDepth;
+    // The optimisers work on binary trees of single primitives.
+    rules.max_children = is_optimised() ? 2 : kBvhMaxChildren;
+    rules.max_leaf = is_optimised() ? 1 : static_cast<std::size_t>(options_.leaf_size);
+    return build_insertion_tree(refs_, rules, context_);
+  }
+
+  void optimise(Tree& tree) const {
+    LinkedTree linked = make_linked(tree);
+    if (options_.optimise == BvhOptimise::rotations)
+      rotate_tree(linked, context_);
+    else
+      reinsert_nodes(linked, {}, context_);
+    tree = make_tree(linked);
+  }
+
+  CollapseRules collapse_rules() const {
+    CollapseRules rules;
+    rules.width = kBvhMaxChildren;
+    rules.max_leaf = static_cast<std::size_t>(options_.leaf_size);
+    rules.node_cost = cost_.traverse, rules.leaf_cost = 0.0;
+    rules.primitive_cost = cost_.intersect;
+    return rules;
+  }
+
+  const PrimitiveSource& source_;
+  const BvhOptions& options_;
+  const BuildContext& context_;
+  SahCost cost_;
+  std::vector<PrimRef> refs_;
+  Aabb box_;
+};
 
 }  // namespace
 
 Hierarchy build_bvh_hierarchy(const PrimitiveSource& source, const BvhOptions& options,
                               const BuildContext& context) {
-  std::vector<PrimRef> refs = make_prim_refs(source, context);
-  if (refs.empty()) return {};
-  const bool sweeps = options.builder == BvhBuilder::sah_sweep;
-  context.require_memory(refs.size() * (sizeof(PrimRef) + kTreeBytes + (sweeps ? kSweepBytes : 0)),
-                         "bvh");
-  Aabb box;
-  for (const PrimRef& ref : refs) box.extend(ref.box);
-  const SahCost cost{options.traverse_cost, options.intersect_cost};
-  const auto splitter =
-      sweeps ? make_sweep_splitter(refs, cost) : make_binned_splitter(refs, options.bins, cost);
-  const LeafRules rules{cost, static_cast<std::size_t>(options.leaf_size), kBvhMaxDepth};
-  return make_hierarchy(build_object_tree(*splitter, refs.size(), box, rules, context));
+  return BvhBuild(source, options, context).run();
 }
 
 }  // namespace strahl

@@ -10,6 +10,8 @@ namespace strahl {
 
 /// No path of a bvh is longer.
 inline constexpr int kBvhMaxDepth = 64;
+/// No node has more children.
+inline constexpr int kBvhMaxChildren = 2;
 
 /// Over everything that can be hit; without nodes if nothing can. No deeper than kBvhMaxDepth.
 /// Deterministic for any executor. Throws Error{cancelled} and Error{resource}.

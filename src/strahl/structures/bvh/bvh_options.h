@@ -1,7 +1,10 @@
 // structures/bvh/bvh_options.h - what a bounding volume hierarchy is made of.
 #pragma once
 
+#include <cstdint>
+
 #include <strahl/base/options.h>
+#include <strahl/build/insertion_tree.h>
 
 namespace strahl {
 
@@ -23,13 +26,31 @@ enum class BvhVolume {
 };
 /// In the order of the tree; nearest child first; nearest of all waiting subtrees first.
 enum class BvhTraversal { dfs, ordered, heap };
-enum class BvhBuilder { sah_sweep, sah_binned };
+enum class BvhBuilder {
+  scene_graph,
+  median_cyclic,
+  median_longest,
+  goldsmith_salmon,
+  sah_sweep,
+  sah_binned,
+  agglomerative,
+  lbvh,
+  ploc
+};
+enum class BvhOptimise { none, rotations, reinsertion };
 
 /// Costs are relative to each other; see README.md for how the defaults were measured.
 struct BvhOptions {
   BvhVolume bv = BvhVolume::aabb;
   BvhBuilder builder = BvhBuilder::sah_binned;
+  BvhOptimise optimise = BvhOptimise::none;
   int bins = 32;
+  int radius = 16;
+  InsertSearch insert_search = InsertSearch::local;
+  InsertOrder insert_order = InsertOrder::file;
+  std::uint64_t seed = 0;
+  double attach_share = 0.9;
+  int arity = 2;
   int leaf_size = 4;
   double traverse_cost = 1.0;
   double intersect_cost = 1.0;

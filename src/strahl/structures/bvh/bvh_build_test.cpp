@@ -1,0 +1,115 @@
+#include <string>
+#include <tests/support/hierarchy_check.h>
+#include <tests/support/tree_cases.h>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <strahl/structures/bvh/bvh_build.h>
+
+namespace strahl {
+namespace {
+
+using namespace test;
+
+/// Boxes and nothing else.
+struct Boxes final : PrimitiveSource {
+  Refs refs;
+
+  explicit Boxes(Refs boxes) : refs(std::move(boxes)) {}
+  std::uint32_t size() const override { return static_cast<std::uint32_t>(refs.size()); }
+  Aabb bounds(std::uint32_t i) const override { return refs[i].box; }
+  Aabb clip(std::uint32_t i, const Aabb& box) const override {
+    return Aabb::intersection(refs[i].box, box);
+  }
+};
+
+/// Every builder with every optimiser.
+std::vector<BvhOptions> all_options(int leaf_size) {
+  std::vector<BvhOptions> all;
+  for (int builder = 0; builder <= static_cast<int>(BvhBuilder::ploc); ++builder)
+    for (const BvhOptimise optimise :
+         {BvhOptimise::none, BvhOptimise::rotations, BvhOptimise::reinsertion}) {
+      BvhOptions options;
+      options.builder = static_cast<BvhBuilder>(builder);
+      options.optimise = optimise, options.leaf_size = leaf_size;
+      all.push_back(options);
+    }
+  return all;
+}
+
+std::string name_of(const BvhOptions& options) { return format_options(options); }
+
+TEST(BvhBuild, HoldsItsInvariantsWhateverTheBuilder) {
+  const Boxes source(random_refs(700, 1));
+  for (const int leaf_size : {1, 4})
+    for (const BvhOptions& options : all_options(leaf_size)) {
+      SCOPED_TRACE(name_of(options));
+      const Hierarchy tree = build_bvh_hierarchy(source, options, {});
+      check_hierarchy(tree, source.refs, static_cast<std::size_t>(leaf_size), kBvhMaxChildren);
+      EXPECT_LE(tree.depth(), kBvhMaxDepth);
+    }
+}
+
+TEST(BvhBuild, StaysWithinTheDepthBoundOnDegenerateInput) {
+  for (Input& input : degenerate_inputs()) {
+    input.refs.resize(500);
+    const Boxes source(input.refs);
+    for (const BvhOptions& options : all_options(1)) {
+      SCOPED_TRACE(input.name + ", " + name_of(options));
+      const Hierarchy tree = build_bvh_hierarchy(source, options, {});
+      check_hierarchy(tree, source.refs, 1, kBvhMaxChildren);
+      EXPECT_LE(tree.depth(), kBvhMaxDepth);
+    }
+  }
+}
+
+TEST(BvhBuild, IsTheSameForAnyNumberOfThreads) {
+  if (!Executor::threads_available()) GTEST_SKIP() << "built without threads";
+  const Boxes source(random_refs(5000, 2));
+  BuildContext two;
+  two.executor = Executor::with_threads(2);
+  for (const BvhOptions& options : all_options(2)) {
+    if (options.optimise != BvhOptimise::none && options.builder != BvhBuilder::lbvh) continue;
+    SCOPED_TRACE(name_of(options));
+    const Hierarchy a = build_bvh_hierarchy(source, options, {});
+    const Hierarchy b = build_bvh_hierarchy(source, options, two);
+    EXPECT_EQ(a.references, b.references);
+    ASSERT_EQ(a.nodes.size(), b.nodes.size());
+    for (std::size_t i = 0; i < a.nodes.size(); ++i)
+      ASSERT_TRUE(a.nodes[i].box == b.nodes[i].box && a.nodes[i].first == b.nodes[i].first);
+  }
+}
+
+TEST(BvhBuild, OptimisersDoNotRaiseTheCostOfSinglePrimitives) {
+  const Boxes source(random_refs(1000, 3));
+  std::vector<double> cost;
+  for (const BvhOptions& options : all_options(1))
+    cost.push_back(build_bvh_hierarchy(source, options, {}).sah_cost({1.0, 1.0}));
+  for (std::size_t i = 0; i < cost.size(); i += 3) {
+    // Insertion makes pairs only where it is optimised, else wider nodes.
+    if (i / 3 == static_cast<std::size_t>(BvhBuilder::goldsmith_salmon)) continue;
+    EXPECT_LE(cost[i + 1], cost[i] * (1 + 1e-12)) << i;
+    EXPECT_LE(cost[i + 2], cost[i] * (1 + 1e-12)) << i;
+  }
+}
+
+TEST(BvhBuild, KeepsToTheMemoryLimitAndCanBeCancelled) {
+  const Boxes source(random_refs(2000, 4));
+  for (const BvhOptions& options : all_options(4)) {
+    SCOPED_TRACE(name_of(options));
+    BuildContext small;
+    small.memory_limit = 200'000;
+    EXPECT_THROW(build_bvh_hierarchy(source, options, small), Error);
+    for (const double end : {0.0, 0.4}) {
+      BuildContext context;
+      context.progress = [&](double fraction, std::string_view stage) {
+        return stage == "bounding primitives" || fraction < end;
+      };
+      EXPECT_THROW(build_bvh_hierarchy(source, options, context), Error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strahl
