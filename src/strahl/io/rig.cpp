@@ -53,8 +53,7 @@ Rig flat_rig(const SceneData& scene) {
   Rig rig;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     RigNode node;
-    if (!scene.instances[i].to_world.is_identity())
-      node.rest.matrix = scene.instances[i].to_world;
+    if (!scene.instances[i].to_world.is_identity()) node.rest.matrix = scene.instances[i].to_world;
     rig.nodes.push_back(std::move(node));
     rig.order.push_back(i);
     rig.mounts.push_back(Mount{i, {}});
