@@ -2,6 +2,7 @@
 #include <apps/strahl/arguments.h>
 #include <apps/strahl/commands.h>
 #include <apps/strahl/interrupt.h>
+#include <apps/strahl/render_setup.h>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,23 +16,9 @@
 #include <strahl/io/png.h>
 #include <strahl/io/text_cursor.h>
 #include <strahl/render/framing.h>
-#include <strahl/render/render.h>
 
 namespace strahl::cli {
-namespace {
 
-struct RenderArguments : CommonOptions {
-  std::string scene, spec{kDefaultSpec}, output, mode = "shaded", size;
-  std::string from, at, up;
-  std::optional<double> fov;
-  int samples = 0;
-  std::uint64_t seed = 1;
-  bool corners = false;
-};
-
-enum class Format { none, png, exr };
-
-/// Checked before work starts, so that a typing error costs no picture.
 Format output_format(const RenderArguments& arguments) {
   if (arguments.output.empty()) {
     if (arguments.json) return Format::none;
@@ -46,11 +33,15 @@ Format output_format(const RenderArguments& arguments) {
   throw Error(ErrorCode::usage, "expected a name ending in .png or .exr", arguments.output);
 }
 
+namespace {
+
 ImageSize image_size(const RenderArguments& arguments, const Scene& scene) {
   if (!arguments.size.empty()) return parse_image_size(arguments.size, "--size");
   if (scene.data().view) return {scene.data().view->width, scene.data().view->height};
   return {800, 600};
 }
+
+}  // namespace
 
 RenderOptions make_options(const RenderArguments& arguments, const Scene& scene, Format format) {
   const auto mode = render_mode(arguments.mode);
@@ -74,6 +65,8 @@ void write_image(const std::string& path, Format format, const Image& image) {
   if (format == Format::png) write_png(path, image);
   if (format == Format::exr) write_exr(path, image);
 }
+
+namespace {
 
 Json report(const RenderArguments& arguments, const Accelerator& accelerator,
             const RenderOptions& options, const RenderResult& result, double seconds) {
@@ -107,7 +100,8 @@ int run_render(const RenderArguments& arguments) {
   Session session(arguments);
   const std::shared_ptr<const Scene> scene = session.load(arguments.scene);
   const RenderOptions options = make_options(arguments, *scene, format);
-  const std::unique_ptr<Accelerator> accelerator = session.build(scene, arguments.spec);
+  const std::unique_ptr<Accelerator> accelerator =
+      session.build(scene, arguments.spec.empty() ? std::string(kDefaultSpec) : arguments.spec);
   const Timer timer;
   const RenderResult result = render(*accelerator, options, session.context());
   const double seconds = timer.seconds();
@@ -136,6 +130,24 @@ void add_view_options(CLI::App& command, RenderArguments& arguments) {
       ->type_name("WxH");
 }
 
+void add_frame_options(CLI::App& command, RenderArguments& arguments) {
+  command.add_option("--frames", arguments.frames, "Render that many pictures of an animation")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000));
+  CLI::Option* frames = command.get_option("--frames");
+  command
+      .add_option("--motion", arguments.motion, "Motion (docs/motion.md) instead of the scene's")
+      ->type_name("JSON")
+      ->needs(frames);
+  command.add_option("--animation", arguments.animation, "Which of the scene's (default: first)")
+      ->type_name("NAME")
+      ->needs(frames);
+  command
+      .add_flag("--verify", arguments.verify,
+                "Compare every frame with bvh built anew, five with brute force")
+      ->needs(frames);
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, Runner& run) {
@@ -147,10 +159,14 @@ void add_render_command(CLI::App& app, Runner& run) {
       "The view is that of the scene, else one that frames it; each part can be overridden.\n"
       "EXR files also hold depth (Z), normals (N.X, N.Y, N.Z) and primitive_id, geometry_id,\n"
       "instance_id of the pixels' centres. The picture does not depend on structure and threads.\n"
+      "With --frames the scene moves, from the start to the end of its animation or of a motion\n"
+      "file; two_level only updates what moves, other structures are built anew for each frame.\n"
       "Examples:\n"
       "  strahl render bunny.ply -o bunny.png --size 1024x768\n"
       "  strahl render robot.glb -o robot.exr --mode path --spp 64\n"
-      "  strahl render gen:balls:4 --corners --mode depth --json");
+      "  strahl render gen:balls:4 --corners --mode depth --json\n"
+      "  strahl render robot.glb -o robot.png --frames 100      (robot_0000.png ...)\n"
+      "  strahl render city.glb -o city.png --frames 100 --motion cars.json --verify");
   auto arguments = std::make_shared<RenderArguments>();
   command->add_option("scene", arguments->scene, kSceneHelp)->required()->type_name("SCENE");
   command->add_option("-o,--output", arguments->output, "Picture, .png or .exr")->type_name("FILE");
@@ -165,7 +181,10 @@ void add_render_command(CLI::App& app, Runner& run) {
                     "One ray per pixel corner, (W+1)x(H+1): the test image of the SPD scenes");
   add_view_options(*command, *arguments);
   add_common_options(*command, *arguments);
-  command->callback([=, &run] { run = [=] { return run_render(*arguments); }; });
+  add_frame_options(*command, *arguments);
+  command->callback([=, &run] {
+    run = [=] { return arguments->frames > 0 ? run_frames(*arguments) : run_render(*arguments); };
+  });
 }
 
 }  // namespace strahl::cli

@@ -41,9 +41,13 @@ void expect_valid(const json& value, const json& schema, const std::string& at) 
 class Schemas : public test::CommandTest {
  protected:
   void expect_schema(const std::string& name, const std::string& arguments) {
+    expect_schema(name, name, arguments);
+  }
+  void expect_schema(const std::string& name, const std::string& command,
+                     const std::string& arguments) {
     std::ifstream file(STRAHL_SOURCE_DIR "/docs/json/" + name + ".schema.json");
     ASSERT_TRUE(file) << name;
-    const test::Finished finished = run(name + " " + arguments + " --json");
+    const test::Finished finished = run(command + " " + arguments + " --json");
     expect_valid(finished.json(), json::parse(file), name);
   }
 };
@@ -58,6 +62,9 @@ TEST_F(Schemas, DescribeWhatTheCommandsPrint) {
   expect_schema("query", "gen:balls:1 --rays rays.npy --count");
   expect_schema("compare", "gen:balls:1 --structures bvh,grid --rays 100 --repeat 1 -o out");
   expect_schema("render", "gen:balls:1 --size 8x8 --mode depth");
+  folder_.write("still.json", R"({"tracks": []})");
+  expect_schema("render_frames", "render",
+                "gen:balls:1 --size 8x8 --mode depth --frames 2 --motion still.json --verify");
 }
 
 }  // namespace

@@ -52,12 +52,22 @@ Session::Session(const CommonOptions& options)
   };
 }
 
-SceneData Session::load_data(const std::string& scene) {
-  SceneData data = load_scene_data(scene);
+void Session::take(SceneData& data, const std::string& scene) {
   for (const std::string& text : data.warnings) warn(text);
   if (is_empty(data)) warn(scene + ": empty scene");
   for (Geometry& geometry : data.geometries) geometry.mask = 1u << (geometry.geometry_id % 32);
+}
+
+SceneData Session::load_data(const std::string& scene) {
+  SceneData data = load_scene_data(scene);
+  take(data, scene);
   return data;
+}
+
+RiggedScene Session::load_rigged(const std::string& scene) {
+  RiggedScene rigged = load_rigged_scene(scene);
+  take(rigged.scene, scene);
+  return rigged;
 }
 
 std::shared_ptr<const Scene> Session::load(const std::string& scene) {

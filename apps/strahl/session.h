@@ -16,6 +16,7 @@
 
 #include <strahl/catalog/accelerator.h>
 #include <strahl/geometry/scene.h>
+#include <strahl/io/motion.h>
 
 namespace strahl::cli {
 
@@ -53,6 +54,8 @@ class Session {
   /// The same, checked and frozen. Geometry g of the file is seen by rays whose mask has bit
   /// g mod 32.
   std::shared_ptr<const Scene> load(const std::string& scene);
+  /// The data with all that can move them, masked likewise.
+  RiggedScene load_rigged(const std::string& scene);
   std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, const std::string& spec);
 
   /// "strahl: warning: ..." on stderr unless --quiet.
@@ -61,6 +64,8 @@ class Session {
   void finish_progress() { bar_.clear(); }
 
  private:
+  void take(SceneData& data, const std::string& scene);
+
   bool quiet_;
   ProgressBar bar_;
   BuildContext context_;

@@ -8,57 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <strahl/base/rng.h>
-#include <strahl/catalog/erased.h>
-#include <strahl/geometry/instance_source.h>
 #include <strahl/io/generators.h>
-#include <strahl/query/instance_visitor.h>
-#include <strahl/structures/brute_force/brute_force.h>
-#include <strahl/structures/bvh/bvh.h>
-#include <strahl/structures/grid/grid.h>
-#include <strahl/structures/kd_tree/kd_tree.h>
 
 namespace strahl::test {
 namespace {
 
-constexpr std::size_t kRays = 500;
+constexpr std::size_t kRays = 200;
 constexpr std::uint64_t kSeed = 7;
-
-/// Top over the instances of the scene, one Bottom per object.
-template <class Top, class Bottom>
-class Nested {
- public:
-  using Options = BruteForceOptions;
-  static constexpr const char* kName = "nested";
-  static constexpr const char* kTitle = "a structure over instances of structures";
-  static constexpr bool kRefersOnce = Top::kRefersOnce && Bottom::kRefersOnce;
-
-  Nested(const Scene& scene, const Options&, const BuildContext& context)
-      : instances_(scene), top_(instances_, {}, context) {
-    for (const std::uint32_t instance : instances_.objects())
-      bottoms_.push_back(std::make_unique<Bottom>(ObjectSource(scene, instance),
-                                                  typename Bottom::Options{}, context));
-    for (std::uint32_t i = 0; i < instances_.size(); ++i)
-      bottom_of_.push_back(bottoms_[instances_.object_of(i)].get());
-  }
-  template <class Q, class C>
-  void trace(SceneVisitor& prims, const PreparedRay& ray, Q& query, C& counters) const {
-    InstanceVisitor<Bottom> instances(prims.scene(), bottom_of_);
-    top_.trace(instances, ray, query, counters);
-  }
-  BuildReport report() const { return top_.report(); }
-  void validate(const Scene& scene) const {
-    top_.validate(instances_);
-    for (const std::uint32_t instance : instances_.objects())
-      bottom_of_[instance]->validate(ObjectSource(scene, instance));
-  }
-  void hash_into(Hash64& hash) const { top_.hash_into(hash); }
-
- private:
-  InstanceSource instances_;
-  Top top_;
-  std::vector<std::unique_ptr<Bottom>> bottoms_;
-  std::vector<const Bottom*> bottom_of_;
-};
 
 /// Many overlapping placements of one object, mirrored ones too, and three that differ: with
 /// nothing to hit, without geometries, with one geometry more.
@@ -103,25 +59,34 @@ const Expected& expected_of(const NamedScene& named) {
   return cache.emplace(named.name, expected_answers(scene_of(named), kRays, kSeed)).first->second;
 }
 
-template <class T>
-class NestedTest : public testing::Test {};
+/// Every structure on top and at the bottom, and levels within levels.
+std::vector<std::string> nested_specs() {
+  std::vector<std::string> specs{
+      "two_level:top=wide_bvh,bottom=wide_bvh",
+      "two_level:top=ray_classification,bottom=ray_classification",
+      "two_level:top=grid,bottom=(kd_tree:split=sah_sweep)",
+      "two_level:top=(grid:mailbox=off),bottom=(grid:mailbox=off)",
+      "two_level:top=(two_level:top=grid,bottom=bih),bottom=(two_level:top=octree,bottom=grid)",
+      "two_level:top=(two_level:top=two_level,bottom=two_level),bottom=(two_level:top=two_level,"
+      "bottom=(two_level:bottom=kd_tree))"};
+  for (const StructureEntry& entry : all_structures()) {
+    specs.push_back("two_level:top=" + std::string(entry.name));
+    specs.push_back("two_level:bottom=" + std::string(entry.name));
+  }
+  return specs;
+}
 
-using Combinations = testing::Types<Nested<BruteForce, Bvh>, Nested<Bvh, BruteForce>,
-                                    Nested<Bvh, Bvh>, Nested<Bvh, KdTree>, Nested<Bvh, Grid>,
-                                    Nested<KdTree, Bvh>, Nested<KdTree, Grid>, Nested<Grid, Bvh>,
-                                    Nested<Grid, KdTree>, Nested<Grid, Grid>>;
-TYPED_TEST_SUITE(NestedTest, Combinations);
+class Nested : public testing::TestWithParam<std::string> {};
 
-TYPED_TEST(NestedTest, AnswersLikeBruteForceOverAllPrimitives) {
+TEST_P(Nested, AnswersLikeBruteForceOverAllPrimitives) {
   for (const NamedScene& named : nested_scenes()) {
     SCOPED_TRACE(named.name);
-    const auto scene = scene_of(named);
-    const Expected& expected = expected_of(named);
-    const auto built = make_entry<TypeParam>().build(scene, {}, {});
-    ASSERT_NO_THROW(built->validate());
-    ASSERT_EQ(first_difference(ask(*built, expected.set, {}), expected.answers), "");
+    ASSERT_EQ(first_difference(scene_of(named), GetParam(), expected_of(named)), "");
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Specs, Nested, testing::ValuesIn(nested_specs()),
+                         [](const auto& spec) { return "number_" + std::to_string(spec.index); });
 
 }  // namespace
 }  // namespace strahl::test

@@ -39,11 +39,18 @@ std::vector<std::string> numbers_of(const OptionInfo& info) {
           as_value(info, std::min(hi, between(standard, hi)))};
 }
 
+/// A level that visits things once, one that may visit them again, and one of further levels.
+std::vector<std::string> specs_of_levels() { return {"bvh", "grid", "two_level"}; }
+
+std::vector<std::string> words_of(const OptionInfo& info) {
+  return info.type == "spec" ? specs_of_levels() : info.values;
+}
+
 std::vector<Axis> axes_of(const StructureEntry& entry) {
   std::vector<Axis> axes;
   for (const OptionInfo& info : entry.options()) {
     Axis axis{info.name, {info.default_value}, !info.min.empty()};
-    for (const std::string& value : axis.is_number ? numbers_of(info) : info.values)
+    for (const std::string& value : axis.is_number ? numbers_of(info) : words_of(info))
       if (std::find(axis.values.begin(), axis.values.end(), value) == axis.values.end())
         axis.values.push_back(value);
     axes.push_back(std::move(axis));

@@ -113,8 +113,13 @@ Hit Accelerator::closest_hit(const Ray& ray) const {
   return hit;
 }
 
+void Accelerator::require_pose(const Scene& moved) const {
+  if (moved.is_pose_of(*scene_)) return;
+  throw Error(ErrorCode::usage, "the scene to move to is not a pose of the one built over", spec_);
+}
+
 void Accelerator::update(std::shared_ptr<const Scene>, const BuildContext&) {
-  throw Error(ErrorCode::unsupported, "this structure cannot move its vertices", spec_);
+  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level can", spec_);
 }
 
 }  // namespace strahl

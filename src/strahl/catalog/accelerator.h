@@ -118,12 +118,17 @@ class Accelerator {
   virtual void validate() const = 0;
   /// Content hash of the built structure: equal for any number of threads.
   virtual std::uint64_t tree_hash() const = 0;
-  /// Moves vertices without changing topology. Throws Error{unsupported} unless overridden.
+  /// Follows the instances to a pose of the scene (Scene::posed), cheaper than a build and with its
+  /// result; seconds of the report are those of this call. Not while rays are traced.
+  /// Throws Error: unsupported unless the structure can move; usage for a scene that is not a pose
+  ///   of this one; those of a build, after which nothing has changed.
   virtual void update(std::shared_ptr<const Scene> moved, const BuildContext& context);
 
  protected:
   Accelerator(std::shared_ptr<const Scene> scene, std::string spec)
       : scene_(std::move(scene)), spec_(std::move(spec)) {}
+  /// Throws Error{usage} unless it is a pose of the scene.
+  void require_pose(const Scene& moved) const;
   /// Answers one span; called from several threads at once.
   virtual BatchReport trace_span(const SpanJob& job) const = 0;
 

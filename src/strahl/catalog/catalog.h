@@ -17,6 +17,8 @@
 
 namespace strahl {
 
+class Level;
+
 /// The SPEC used when none is given.
 inline constexpr std::string_view kDefaultSpec = "bvh";
 
@@ -43,6 +45,9 @@ struct StructureEntry {
   std::vector<OptionInfo> (*options)();
   std::unique_ptr<Accelerator> (*build)(std::shared_ptr<const Scene>, std::span<const OptionValue>,
                                         const BuildContext&);
+  /// As a level of a two-level structure (structures/two_level/level.h).
+  std::unique_ptr<Level> (*build_level)(const PrimitiveSource&, std::span<const OptionValue>,
+                                        const BuildContext&) = nullptr;
 };
 
 /// All structures in the order of structures.def.
@@ -51,6 +56,10 @@ std::span<const StructureEntry> all_structures();
 /// Builds a structure over the scene. Throws Error: usage for an unknown name (naming the known
 /// ones) or a bad option, resource above the memory limit, cancelled by the progress callback.
 std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, std::string_view spec,
+                                   const BuildContext& context = {});
+
+/// The same over any source, as a level of a two-level structure. The source need not outlive it.
+std::unique_ptr<Level> build_level(const PrimitiveSource& source, std::string_view spec,
                                    const BuildContext& context = {});
 
 }  // namespace strahl

@@ -33,6 +33,17 @@ concept TracesFloats = requires(const S& s) {
   { s.traces_floats() } -> std::same_as<bool>;
 };
 
+/// A structure whose levels are structures of the catalogue.
+template <class S>
+concept TakesLevels = std::constructible_from<S, const Scene&, const typename S::Options&,
+                                              const BuildContext&, decltype(&build_level)>;
+
+/// A structure that can follow the instances of its scene.
+template <class S>
+concept Moves = requires(S& s, const Scene& pose, const BuildContext& context) {
+  s.move(pose, context);
+};
+
 /// S has kName, kTitle, kRefersOnce, Options, a constructor from (PrimitiveSource, Options,
 /// BuildContext), trace(), report(), validate(source), hash_into(hash).
 template <class S>
@@ -41,7 +52,7 @@ class Erased final : public Accelerator {
   Erased(std::shared_ptr<const Scene> scene, const typename S::Options& options,
          const BuildContext& context)
       : Accelerator(std::move(scene), canonical_spec(S::kName, format_options(options))),
-        structure_(*scene_, options, context) {}
+        structure_(make_structure(*scene_, options, context)) {}
 
   void set_seconds(double seconds) { seconds_ = seconds; }
   BuildReport report() const override {
@@ -53,6 +64,18 @@ class Erased final : public Accelerator {
     const FpEnvGuard environment;
     structure_.validate(*scene_);
   }
+  void update(std::shared_ptr<const Scene> moved, const BuildContext& context) override {
+    if constexpr (Moves<S>) {
+      require_pose(*moved);
+      const FpEnvGuard environment;
+      const Timer timer;
+      structure_.move(*moved, context);
+      scene_ = std::move(moved);
+      seconds_ = timer.seconds();
+    } else {
+      Accelerator::update(std::move(moved), context);
+    }
+  }
   std::uint64_t tree_hash() const override {
     const FpEnvGuard environment;
     Hash64 hash;
@@ -61,6 +84,14 @@ class Erased final : public Accelerator {
   }
 
  private:
+  static S make_structure(const Scene& scene, const typename S::Options& options,
+                          const BuildContext& context) {
+    if constexpr (TakesLevels<S>)
+      return S(scene, options, context, &build_level);
+    else
+      return S(scene, options, context);
+  }
+
   BatchReport trace_span(const SpanJob& job) const override {
     return job.context.count_work ? trace_counted<Counters>(job) : trace_counted<NoCounters>(job);
   }

@@ -5,22 +5,22 @@
 
 namespace strahl {
 
-InstanceSource::InstanceSource(const Scene& scene) : scene_(scene) {
+InstanceSource::InstanceSource(const Scene& scene) : scene_(&scene) {
+  const auto grouping = std::make_shared<Grouping>();
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
   for (std::uint32_t i = 0; i < size(); ++i) {
     const Instance& inst = scene.instances()[i];
-    const auto next = static_cast<std::uint32_t>(objects_.size());
+    const auto next = static_cast<std::uint32_t>(grouping->objects.size());
     const auto [entry, is_new] =
         known.try_emplace({inst.first_geometry, inst.geometry_count}, next);
-    if (is_new) objects_.push_back(i);
-    object_of_.push_back(entry->second);
+    if (is_new) grouping->objects.push_back(i);
+    grouping->object_of.push_back(entry->second);
   }
+  grouping_ = grouping;
 }
 
-Aabb InstanceSource::bounds(std::uint32_t instance) const {
-  const Aabb& own = scene_.object_frame(instance).bounds;
-  if (own.is_empty() || scene_.is_identity(instance)) return own;
-  return transformed(scene_.instances()[instance].to_world, own);
+std::uint64_t InstanceSource::bytes() const {
+  return (grouping_->objects.capacity() + grouping_->object_of.capacity()) * sizeof(std::uint32_t);
 }
 
 }  // namespace strahl

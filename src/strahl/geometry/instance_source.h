@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <strahl/geometry/scene.h>
@@ -41,23 +42,33 @@ class InstanceSource final : public PrimitiveSource {
  public:
   /// O(instances * log objects).
   explicit InstanceSource(const Scene& scene);
+  /// Of a pose of the scene that `other` is of. O(1).
+  InstanceSource(const Scene& pose, const InstanceSource& other)
+      : scene_(&pose), grouping_(other.grouping_) {}
 
   std::uint32_t size() const override {
-    return static_cast<std::uint32_t>(scene_.instances().size());
+    return static_cast<std::uint32_t>(scene_->instances().size());
   }
-  Aabb bounds(std::uint32_t instance) const override;
+  Aabb bounds(std::uint32_t instance) const override { return scene_->instance_bounds(instance); }
   Aabb clip(std::uint32_t instance, const Aabb& box) const override {
     return Aabb::intersection(bounds(instance), box);
   }
 
   /// An instance of each object, in the order of their first instances.
-  const std::vector<std::uint32_t>& objects() const { return objects_; }
+  const std::vector<std::uint32_t>& objects() const { return grouping_->objects; }
   /// Index into objects().
-  std::uint32_t object_of(std::uint32_t instance) const { return object_of_[instance]; }
+  std::uint32_t object_of(std::uint32_t instance) const { return grouping_->object_of[instance]; }
+  /// Live bytes of its own.
+  std::uint64_t bytes() const;
 
  private:
-  const Scene& scene_;
-  std::vector<std::uint32_t> objects_, object_of_;
+  /// Shared by all poses.
+  struct Grouping {
+    std::vector<std::uint32_t> objects, object_of;
+  };
+
+  const Scene* scene_;
+  std::shared_ptr<const Grouping> grouping_;
 };
 
 }  // namespace strahl

@@ -68,7 +68,7 @@ Outline PrimitiveSource::outline(std::uint32_t) const { return {}; }
 
 Outline Scene::object_outline(std::uint32_t reference) const {
   const Part& part = part_of(reference);
-  const Geometry& g = data_.geometries[part.geometry];
+  const Geometry& g = geometries_[part.geometry];
   const std::uint32_t prim = reference - part.first_reference;
   if (g.kind == PrimitiveKind::triangle) return outline_of(g.mesh[prim], {});
   return g.kind == PrimitiveKind::sphere ? outline_of(g.spheres[prim]) : outline_of(g.cones[prim]);
@@ -77,8 +77,8 @@ Outline Scene::object_outline(std::uint32_t reference) const {
 Outline Scene::outline(std::uint32_t reference) const {
   const Part& part = part_of(reference);
   if (is_identity_[part.instance]) return object_outline(reference);
-  const Geometry& g = data_.geometries[part.geometry];
-  const Affine& map = data_.instances[part.instance].to_world;
+  const Geometry& g = geometries_[part.geometry];
+  const Affine& map = instances_[part.instance].to_world;
   if (g.kind != PrimitiveKind::triangle) return outline_of(object_bounds(reference), map);
   return outline_of(g.mesh[reference - part.first_reference], map);
 }

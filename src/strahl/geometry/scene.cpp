@@ -69,6 +69,10 @@ TriangleVertices transformed(const Affine& map, const TriangleVertices& t) {
   return {map.point(t.a), map.point(t.b), map.point(t.c)};
 }
 
+std::string place_of(const Instance& inst) {
+  return "instance " + std::to_string(inst.instance_id);
+}
+
 double radius(const Aabb& box) {
   return box.is_empty() ? 0.0 : std::max(norm_max(box.lo), norm_max(box.hi));
 }
@@ -79,101 +83,196 @@ double translation_norm(const Affine& a) {
 
 }  // namespace
 
-Scene::Scene(SceneData data) : data_(std::move(data)) {
-  const FpEnvGuard environment;
-  if (data_.instances.empty() && !data_.geometries.empty())
-    data_.instances.push_back({0, static_cast<std::uint32_t>(data_.geometries.size()), {}, 0});
+struct Scene::Content {
+  explicit Content(SceneData given);
+
+  SceneData data;
+  std::vector<Part> parts;
+  std::vector<std::uint32_t> first_part_of_block, first_references;
+  std::vector<Aabb> geometry_bounds;  ///< of never refused primitives, object space
+  std::vector<RayFrame> object_frames;
+  SceneCounts counts;
+  bool has_hidden_geometry = false;
+  Hash64 hash;  ///< of the geometries
+
+ private:
+  void check_geometries();
+  Aabb check_triangles(const Geometry& g);
+  Aabb check_curved(const Geometry& g);
+  void check_ranges() const;
+  void number_parts();
+  void bound_objects();
+  void hash_geometries();
+};
+
+Scene::Content::Content(SceneData given) : data(std::move(given)) {
+  if (data.instances.empty() && !data.geometries.empty())
+    data.instances.push_back({0, static_cast<std::uint32_t>(data.geometries.size()), {}, 0});
   check_geometries();
-  check_instances();
+  check_ranges();
   number_parts();
-  bound_parts();
-  widen_for_instances();
-  hash_content();
+  bound_objects();
+  hash_geometries();
 }
 
-void Scene::check_geometries() {
-  for (const Geometry& g : data_.geometries) {
-    has_hidden_geometry_ = has_hidden_geometry_ || g.mask == 0;
+void Scene::Content::check_geometries() {
+  for (const Geometry& g : data.geometries) {
+    has_hidden_geometry = has_hidden_geometry || g.mask == 0;
     if (g.size() > 0xfffffffeu)
-      throw Error(ErrorCode::resource, "more than 2^32 - 2 primitives in a geometry", data_.source);
+      throw Error(ErrorCode::resource, "more than 2^32 - 2 primitives in a geometry", data.source);
     if (g.kind == PrimitiveKind::triangle) {
-      check_indices(data_, g);
-      check_vertices(data_, g);
-      counts_.triangles += g.size();
+      check_indices(data, g);
+      check_vertices(data, g);
+      counts.triangles += g.size();
     }
-    counts_.spheres += g.spheres.size(), counts_.cones += g.cones.size();
-    geometry_bounds_.push_back(g.kind == PrimitiveKind::triangle ? check_triangles(g)
-                                                                 : check_curved(g));
+    counts.spheres += g.spheres.size(), counts.cones += g.cones.size();
+    geometry_bounds.push_back(g.kind == PrimitiveKind::triangle ? check_triangles(g)
+                                                                : check_curved(g));
   }
 }
 
-Aabb Scene::check_triangles(const Geometry& g) {
+Aabb Scene::Content::check_triangles(const Geometry& g) {
   Aabb all;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const TriangleVertices tri = g.mesh[i];
     const TriangleDefect defect = find_defect(tri);
-    count_defect(defect, counts_);
+    count_defect(defect, counts);
     all.extend(box_of(tri, defect));
   }
   return all;
 }
 
-Aabb Scene::check_curved(const Geometry& g) {
+Aabb Scene::Content::check_curved(const Geometry& g) {
   Aabb all;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const Aabb box = own_bounds(g, i);
-    counts_.refused_curved += box.is_empty();
+    counts.refused_curved += box.is_empty();
     all.extend(box);
   }
   return all;
 }
 
-void Scene::check_instances() {
-  for (std::size_t i = 0; i < data_.instances.size(); ++i) {
-    const Instance& inst = data_.instances[i];
-    const std::string where = "instance " + std::to_string(inst.instance_id);
-    if (std::uint64_t{inst.first_geometry} + inst.geometry_count > data_.geometries.size())
-      refuse(data_, where, "refers to a geometry that does not exist");
-    if (!is_well_conditioned(inst.to_world))
-      refuse(data_, where, "its transformation is singular or nearly so (condition above 2^30)");
-    is_identity_.push_back(inst.to_world.is_identity());
-    to_object_.push_back(inverse(inst.to_world));
-  }
+void Scene::Content::check_ranges() const {
+  for (const Instance& inst : data.instances)
+    if (std::uint64_t{inst.first_geometry} + inst.geometry_count > data.geometries.size())
+      refuse(data, place_of(inst), "refers to a geometry that does not exist");
 }
 
-void Scene::number_parts() {
+void Scene::Content::number_parts() {
   std::uint64_t next = 0;
-  for (std::uint32_t i = 0; i < data_.instances.size(); ++i) {
-    const Instance& inst = data_.instances[i];
-    first_references_.push_back(static_cast<std::uint32_t>(next));
+  for (std::uint32_t i = 0; i < data.instances.size(); ++i) {
+    const Instance& inst = data.instances[i];
+    first_references.push_back(static_cast<std::uint32_t>(next));
     for (std::uint32_t g = inst.first_geometry; g < inst.first_geometry + inst.geometry_count;
          ++g) {
-      if (data_.geometries[g].size() == 0) continue;
-      parts_.push_back({i, g, static_cast<std::uint32_t>(next)});
-      next += data_.geometries[g].size();
+      if (data.geometries[g].size() == 0) continue;
+      parts.push_back({i, g, static_cast<std::uint32_t>(next)});
+      next += data.geometries[g].size();
       if (next > 0xfffffffeu)
-        throw Error(ErrorCode::resource, "more than 2^32 - 2 instanced primitives", data_.source);
+        throw Error(ErrorCode::resource, "more than 2^32 - 2 instanced primitives", data.source);
     }
   }
-  first_references_.push_back(static_cast<std::uint32_t>(next));
-  reference_count_ = static_cast<std::uint32_t>(next);
-  counts_.references = next;
+  first_references.push_back(static_cast<std::uint32_t>(next));
+  counts.references = next;
   std::uint32_t part = 0;
   for (std::uint64_t first = 0; first < next; first += kBlock) {
-    while (part + 1 < parts_.size() && parts_[part + 1].first_reference <= first) ++part;
-    first_part_of_block_.push_back(part);
+    while (part + 1 < parts.size() && parts[part + 1].first_reference <= first) ++part;
+    first_part_of_block.push_back(part);
   }
 }
 
-void Scene::bound_parts() {
-  object_frames_.resize(data_.instances.size());
-  for (const Part& part : parts_) {
-    object_frames_[part.instance].bounds.extend(geometry_bounds_[part.geometry]);
-    if (is_identity_[part.instance]) world_frame_.bounds.extend(geometry_bounds_[part.geometry]);
+void Scene::Content::bound_objects() {
+  object_frames.resize(data.instances.size());
+  for (const Part& part : parts)
+    object_frames[part.instance].bounds.extend(geometry_bounds[part.geometry]);
+}
+
+void Scene::Content::hash_geometries() {
+  for (const Geometry& g : data.geometries) {
+    hash.add(g.kind), hash.add(g.geometry_id), hash.add(g.mask), hash.add(g.size());
+    for (std::size_t i = 0; i < g.mesh.size(); ++i) {
+      const TriangleVertices tri = g.mesh[i];
+      for (const Vec3d& v : {tri.a, tri.b, tri.c}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
+    }
+    for (const Sphere& s : g.spheres)
+      for (double v : {s.center.x, s.center.y, s.center.z, s.radius}) hash.add(v);
+    for (const Cone& c : g.cones)
+      for (double v : {c.base.x, c.base.y, c.base.z, c.base_radius, c.apex.x, c.apex.y, c.apex.z,
+                       c.apex_radius})
+        hash.add(v);
   }
+}
+
+Scene::Scene(SceneData data) {
+  const FpEnvGuard environment;
+  content_ = std::make_shared<const Content>(std::move(data));
+  geometries_ = content_->data.geometries;
+  parts_ = content_->parts;
+  first_part_of_block_ = content_->first_part_of_block;
+  first_references_ = content_->first_references;
+  object_frames_ = content_->object_frames;
+  instances_ = content_->data.instances;
+  reference_count_ = static_cast<std::uint32_t>(content_->counts.references);
+  has_hidden_geometry_ = content_->has_hidden_geometry;
+  place_instances();
   for (std::uint32_t r = 0; r < reference_count_; ++r) bounds_.extend(bounds(r));
+  check_extent();
+  widen_for_instances();
+  hash_instances();
+}
+
+Scene::Scene(const Scene& base, std::span<const Affine> to_world)
+    : content_(base.content_),
+      geometries_(base.geometries_),
+      parts_(base.parts_),
+      first_part_of_block_(base.first_part_of_block_),
+      first_references_(base.first_references_),
+      object_frames_(base.object_frames_),
+      instances_(base.instances_),
+      reference_count_(base.reference_count_),
+      has_hidden_geometry_(base.has_hidden_geometry_) {
+  for (std::size_t i = 0; i < instances_.size(); ++i) instances_[i].to_world = to_world[i];
+  place_instances();
+  for (std::uint32_t i = 0; i < instances_.size(); ++i) bounds_.extend(instance_bounds(i));
+  check_extent();
+  widen_for_instances();
+  hash_instances();
+}
+
+Scene Scene::posed(std::span<const Affine> to_world) const {
+  const FpEnvGuard environment;
+  if (to_world.size() != instances_.size())
+    throw Error(ErrorCode::usage,
+                std::to_string(to_world.size()) + " maps for " + std::to_string(instances_.size()) +
+                    " instances",
+                data().source);
+  return Scene(*this, to_world);
+}
+
+const SceneData& Scene::data() const { return content_->data; }
+const SceneCounts& Scene::counts() const { return content_->counts; }
+
+void Scene::place_instances() {
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const Instance& inst = instances_[i];
+    if (!is_well_conditioned(inst.to_world))
+      refuse(data(), place_of(inst),
+             "its transformation is singular or nearly so (condition above 2^30)");
+    is_identity_.push_back(inst.to_world.is_identity());
+    to_object_.push_back(inverse(inst.to_world));
+    if (is_identity_[i]) world_frame_.bounds.extend(object_frames_[i].bounds);
+  }
+}
+
+Aabb Scene::instance_bounds(std::uint32_t instance) const {
+  const Aabb& own = object_frames_[instance].bounds;
+  if (own.is_empty() || is_identity_[instance]) return own;
+  return transformed(instances_[instance].to_world, own);
+}
+
+void Scene::check_extent() const {
   if (radius(bounds_) > kMaxCoordinate)
-    refuse(data_, "", "a transformed coordinate's magnitude is above 2^240");
+    refuse(data(), "", "a transformed coordinate's magnitude is above 2^240");
 }
 
 // Let W = to_object (as stored), T = to_world, R0 the world radius, R' the object radius. A ray is
@@ -186,9 +285,9 @@ void Scene::bound_parts() {
 // The sum is doubled once more for the roundings of this very computation.
 void Scene::widen_for_instances() {
   const double world_radius = radius(bounds_);
-  for (std::size_t i = 0; i < data_.instances.size(); ++i) {
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
     if (is_identity_[i]) continue;
-    const Affine &T = data_.instances[i].to_world, &W = to_object_[i];
+    const Affine &T = instances_[i].to_world, &W = to_object_[i];
     const double nT = norm_rows(T), nW = norm_rows(W);
     const double w = translation_norm(W), t = translation_norm(T);
     const double own_radius = radius(object_frames_[i].bounds);
@@ -204,50 +303,36 @@ void Scene::widen_for_instances() {
   }
 }
 
-void Scene::hash_content() {
-  Hash64 hash;
-  for (const Geometry& g : data_.geometries) {
-    hash.add(g.kind), hash.add(g.geometry_id), hash.add(g.mask), hash.add(g.size());
-    for (std::size_t i = 0; i < g.mesh.size(); ++i) {
-      const TriangleVertices tri = g.mesh[i];
-      for (const Vec3d& v : {tri.a, tri.b, tri.c}) hash.add(v.x), hash.add(v.y), hash.add(v.z);
-    }
-    for (const Sphere& s : g.spheres)
-      for (double v : {s.center.x, s.center.y, s.center.z, s.radius}) hash.add(v);
-    for (const Cone& c : g.cones)
-      for (double v : {c.base.x, c.base.y, c.base.z, c.base_radius, c.apex.x, c.apex.y, c.apex.z,
-                       c.apex_radius})
-        hash.add(v);
-  }
-  for (const Instance& inst : data_.instances) {
+void Scene::hash_instances() {
+  Hash64 hash = content_->hash;
+  for (const Instance& inst : instances_) {
     hash.add(inst.first_geometry), hash.add(inst.geometry_count), hash.add(inst.instance_id);
-    for (const auto& row : inst.to_world.m)
-      for (double v : row) hash.add(v);
+    for (const auto& row : inst.to_world.m) hash.add(std::span<const double>(row));
   }
   hash_ = hash.digest();
 }
 
 PrimitiveId Scene::id_of(std::uint32_t reference) const {
   const Part& part = part_of(reference);
-  return {data_.instances[part.instance].instance_id, data_.geometries[part.geometry].geometry_id,
+  return {instances_[part.instance].instance_id, geometries_[part.geometry].geometry_id,
           reference - part.first_reference};
 }
 
 Aabb Scene::object_bounds(std::uint32_t reference) const {
   const Part& part = part_of(reference);
-  return own_bounds(data_.geometries[part.geometry], reference - part.first_reference);
+  return own_bounds(geometries_[part.geometry], reference - part.first_reference);
 }
 
 Aabb Scene::object_clip(std::uint32_t reference, const Aabb& box) const {
   const Part& part = part_of(reference);
-  const Geometry& g = data_.geometries[part.geometry];
+  const Geometry& g = geometries_[part.geometry];
   if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(object_bounds(reference), box);
   return strahl::clip(g.mesh[reference - part.first_reference], box);
 }
 
 bool Scene::object_triangle(std::uint32_t reference, TriangleVertices& vertices) const {
   const Part& part = part_of(reference);
-  const Geometry& g = data_.geometries[part.geometry];
+  const Geometry& g = geometries_[part.geometry];
   if (g.kind != PrimitiveKind::triangle) return false;
   vertices = g.mesh[reference - part.first_reference];
   return true;
@@ -261,8 +346,8 @@ Aabb Scene::bounds(std::uint32_t reference) const {
   const Part& part = part_of(reference);
   const Aabb own = object_bounds(reference);
   if (own.is_empty() || is_identity_[part.instance]) return own;
-  const Geometry& g = data_.geometries[part.geometry];
-  const Affine& map = data_.instances[part.instance].to_world;
+  const Geometry& g = geometries_[part.geometry];
+  const Affine& map = instances_[part.instance].to_world;
   if (g.kind != PrimitiveKind::triangle) return transformed(map, own);
   return transformed(map, g.mesh[reference - part.first_reference]).bounds();
 }
@@ -270,9 +355,9 @@ Aabb Scene::bounds(std::uint32_t reference) const {
 Aabb Scene::clip(std::uint32_t reference, const Aabb& box) const {
   const Part& part = part_of(reference);
   if (is_identity_[part.instance]) return object_clip(reference, box);
-  const Geometry& g = data_.geometries[part.geometry];
+  const Geometry& g = geometries_[part.geometry];
   if (g.kind != PrimitiveKind::triangle) return Aabb::intersection(bounds(reference), box);
-  const Affine& map = data_.instances[part.instance].to_world;
+  const Affine& map = instances_[part.instance].to_world;
   return strahl::clip(transformed(map, g.mesh[reference - part.first_reference]), box);
 }
 

@@ -1,7 +1,8 @@
 // geometry/scene.h - what is to be hit: geometries, instances of them, and their numbering.
 //
 // SceneData is the plain description that readers and generators fill. Scene is its checked,
-// immutable form: refused primitives known, instances inverted, references numbered.
+// immutable form: refused primitives known, instances inverted, references numbered. A pose of a
+// scene is another scene that shares all but the matrices and what follows from them.
 // Ids: (instance_id, geometry_id, primitive_id) as DESIGN fixes them per format.
 // Thread safety: Scene is immutable; const access from any number of threads.
 #pragma once
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -96,7 +98,7 @@ struct SceneCounts {
   }
 };
 
-/// The checked, immutable scene.
+/// The checked, immutable scene. Copies and poses share geometry and numbering.
 class Scene final : public PrimitiveSource {
  public:
   /// Checks and freezes. O(primitives + vertices).
@@ -105,16 +107,25 @@ class Scene final : public PrimitiveSource {
   ///   ranges out of bounds; Error{resource}: more than 2^32 - 2 instanced primitives.
   explicit Scene(SceneData data);
 
-  const SceneData& data() const { return data_; }
-  const std::vector<Geometry>& geometries() const { return data_.geometries; }
-  const std::vector<Instance>& instances() const { return data_.instances; }
+  /// The same things placed anew, for all queries as if loaded with these maps. O(instances).
+  /// @param to_world object -> world, one per instance
+  /// Throws Error{usage} when that is not their number, Error{bad_input} as the constructor does
+  ///   for instance maps.
+  Scene posed(std::span<const Affine> to_world) const;
+  /// Whether one is a pose or a copy of the other.
+  bool is_pose_of(const Scene& other) const { return content_ == other.content_; }
+
+  /// As given; for where instances are now see instances().
+  const SceneData& data() const;
+  std::span<const Geometry> geometries() const { return geometries_; }
+  const std::vector<Instance>& instances() const { return instances_; }
   const std::vector<Affine>& to_object() const { return to_object_; }  ///< per instance
-  const SceneCounts& counts() const { return counts_; }
+  const SceneCounts& counts() const;
 
   /// References: every primitive under every instance, numbered 0..size()-1 in part order, which is
   /// ascending (instance, geometry, primitive) index order.
   std::uint32_t size() const override { return reference_count_; }
-  const std::vector<Part>& parts() const { return parts_; }
+  std::span<const Part> parts() const { return parts_; }
   const Part& part_of(std::uint32_t reference) const {
     if (parts_.size() == 1) return parts_.front();
     std::uint32_t p = first_part_of_block_[reference / kBlock];
@@ -141,7 +152,9 @@ class Scene final : public PrimitiveSource {
   Aabb object_clip(std::uint32_t reference, const Aabb& box) const;
   Outline object_outline(std::uint32_t reference) const;
   bool object_triangle(std::uint32_t reference, TriangleVertices& vertices) const;
-  /// Union of all reference boxes.
+  /// World box around all that an instance places; empty when nothing of it can be hit.
+  Aabb instance_bounds(std::uint32_t instance) const;
+  /// Union of all reference boxes; of a pose, a box around that and all instances.
   const Aabb& total_bounds() const { return bounds_; }
 
   /// What rays are prepared with: in world space, and in the object space of an instance.
@@ -156,26 +169,24 @@ class Scene final : public PrimitiveSource {
 
  private:
   static constexpr std::uint32_t kBlock = 64;
-  void check_geometries();
-  Aabb check_triangles(const Geometry& g);
-  Aabb check_curved(const Geometry& g);
-  void check_instances();
-  void number_parts();
-  void bound_parts();
+  struct Content;  ///< what all poses share; the spans below are views of it
+  Scene(const Scene& base, std::span<const Affine> to_world);
+  void place_instances();
+  void check_extent() const;
   void widen_for_instances();
-  void hash_content();
+  void hash_instances();
 
-  SceneData data_;
+  std::shared_ptr<const Content> content_;
+  std::span<const Geometry> geometries_;
+  std::span<const Part> parts_;
+  std::span<const std::uint32_t> first_part_of_block_;
+  std::span<const std::uint32_t> first_references_;  ///< per instance, and the end
+  std::span<const RayFrame> object_frames_;
+  std::vector<Instance> instances_;
   std::vector<Affine> to_object_;
-  std::vector<Part> parts_;
-  std::vector<std::uint32_t> first_part_of_block_;
-  std::vector<std::uint32_t> first_references_;  ///< per instance, and the end
-  std::vector<Aabb> geometry_bounds_;            ///< of never refused primitives, object space
   std::vector<std::uint8_t> is_identity_;
-  std::vector<RayFrame> object_frames_;
   RayFrame world_frame_;
   Aabb bounds_;
-  SceneCounts counts_;
   std::uint32_t reference_count_ = 0;
   bool has_hidden_geometry_ = false;
   std::uint64_t hash_ = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <strahl/io/gltf.h>
+#include <strahl/io/gltf_animation.h>
 #include <strahl/io/gltf_instancing.h>
 #include <strahl/io/gltf_mesh.h>
 #include <strahl/io/gltf_nodes.h>
@@ -71,6 +72,20 @@ class SceneReader {
     return std::move(scene_);
   }
 
+  RiggedScene read_rigged() {
+    RiggedScene result;
+    result.scene = read();
+    result.animations = gltf::read_animations(accessors_);
+    const auto is_fixed = [](const std::optional<Mount>& mount) { return !mount; };
+    if (!result.animations.empty() && std::any_of(mounts_.begin(), mounts_.end(), is_fixed))
+      document_.warn(document_.root(), "meshes with a skin keep their bind pose");
+    for (std::string& warning : document_.take_warnings())
+      result.scene.warnings.push_back(std::move(warning));
+    result.rig = std::move(tree_.rig);
+    result.rig.mounts = std::move(mounts_);
+    return result;
+  }
+
  private:
   void read_materials();
   void read_mesh(const JsonValue& mesh);
@@ -80,7 +95,8 @@ class SceneReader {
   Range deform(const JsonValue& node, const JsonValue& mesh, Range base);
   Geometry deformed(const Geometry& base, const JsonValue& node, const JsonValue& primitive,
                     const std::vector<double>& weights);
-  void place(const JsonValue& node, Range range, const Affine& to_world);
+  void place(const JsonValue& node, Range range, const Affine& to_world,
+             const std::optional<Mount>& mount);
   void find_view();
   void drop_unused_geometries();
 
@@ -90,6 +106,7 @@ class SceneReader {
   gltf::NodeTree tree_;
   gltf::Skins skins_{accessors_, tree_};
   std::vector<Range> mesh_ranges_;
+  std::vector<std::optional<Mount>> mounts_;  ///< per instance of the scene
   std::uint32_t next_instance_id_ = 0;
   SceneData scene_;
 };
@@ -151,9 +168,9 @@ void SceneReader::place_node(std::uint32_t n) {
   const bool is_skinned = node.find("skin").has_value();
   if (is_skinned || node.find("weights")) range = deform(node, document_.item("meshes", m), range);
   // A skin takes the mesh to the world by its joints alone.
-  if (is_skinned) return place(node, range, Affine{});
+  if (is_skinned) return place(node, range, Affine{}, std::nullopt);
   for (const Affine& copy : gltf::read_copies(accessors_, node))
-    place(node, range, tree_.to_world[n] * copy);
+    place(node, range, tree_.to_world[n] * copy, Mount{n, copy});
 }
 
 // Copies of the mesh's geometries with the node's own shape.
@@ -178,14 +195,17 @@ Geometry SceneReader::deformed(const Geometry& base, const JsonValue& node,
   return copy;
 }
 
-void SceneReader::place(const JsonValue& node, Range range, const Affine& to_world) {
+void SceneReader::place(const JsonValue& node, Range range, const Affine& to_world,
+                        const std::optional<Mount>& mount) {
   const std::uint32_t id = next_instance_id_++;
   document_.charge(range.count, sizeof(Part), node);
-  if (is_well_conditioned(to_world))
+  if (is_well_conditioned(to_world)) {
     scene_.instances.push_back({range.first, range.count, to_world, id});
-  else
+    mounts_.push_back(mount);
+  } else {
     document_.warn(node, "instance " + std::to_string(id) +
                              " dropped: its transform is singular or not finite");
+  }
 }
 
 void SceneReader::find_view() {
@@ -217,5 +237,7 @@ void SceneReader::drop_unused_geometries() {
 }  // namespace
 
 SceneData read_gltf(const FileBytes& file) { return SceneReader(file).read(); }
+
+RiggedScene read_rigged_gltf(const FileBytes& file) { return SceneReader(file).read_rigged(); }
 
 }  // namespace strahl

@@ -4,12 +4,13 @@
 // Ids: instance_id counts mesh nodes of the scene depth-first in file order (each copy made by
 //   EXT_mesh_gpu_instancing counts), geometry_id counts (mesh, primitive) in file order.
 // Pose: the file's default scene, else its first one; node transforms, morph targets by default
-//   weights, skins by the joints' node transforms; no animation.
+//   weights, skins by the joints' node transforms; animations are read beside it.
 // Thread safety: no shared state.
 #pragma once
 
 #include <strahl/geometry/scene.h>
 #include <strahl/io/file_bytes.h>
+#include <strahl/io/motion.h>
 
 namespace strahl {
 
@@ -26,5 +27,9 @@ namespace strahl {
 ///   data that expands far beyond the size of the file.
 /// Complexity: O(file size + nodes), except that each skinned node costs its vertices.
 SceneData read_gltf(const FileBytes& file);
+
+/// The same with the hierarchy of nodes and the file's animations. What a skin deforms keeps its
+/// bind pose, with a warning where something is animated. Throws also as gltf::read_animations().
+RiggedScene read_rigged_gltf(const FileBytes& file);
 
 }  // namespace strahl

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <strahl/base/error.h>
 #include <strahl/io/gltf_json.h>
 
@@ -78,6 +80,17 @@ JsonValue JsonValue::at(const char* key) const {
   std::optional<JsonValue> member = find(key);
   if (!member) fail(std::string("'") + key + "' is missing");
   return *std::move(member);
+}
+
+void JsonValue::allow_only(std::initializer_list<std::string_view> members) const {
+  if (!json_->is_object()) fail_type("an object");
+  for (const auto& [key, value] : json_->items()) {
+    if (std::find(members.begin(), members.end(), key) != members.end()) continue;
+    std::string known;
+    for (const std::string_view name : members)
+      known.append(known.empty() ? "" : ", ").append(name);
+    fail("unknown member '" + printable(key) + "'; known: " + known);
+  }
 }
 
 std::size_t JsonValue::size() const {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,11 +41,14 @@ class JsonValue {
   /// Member of an object; nothing where absent.
   std::optional<JsonValue> find(const char* key) const;
   JsonValue at(const char* key) const;
+  /// Fails where the object has any other member.
+  void allow_only(std::initializer_list<std::string_view> members) const;
 
   /// Elements of an array; i < size().
   std::size_t size() const;
   JsonValue operator[](std::size_t i) const;
 
+  bool is_string() const { return json_->is_string(); }
   const std::string& string() const;
   bool boolean() const;
   double number() const;

@@ -7,7 +7,7 @@
 namespace strahl::gltf {
 namespace {
 
-constexpr std::uint32_t kNoParent = UINT32_MAX;
+constexpr std::uint32_t kNoParent = RigNode::kNoParent;
 
 struct Links {
   std::vector<std::vector<std::uint32_t>> children;
@@ -67,13 +67,18 @@ std::array<double, N> numbers_or(const JsonValue& node, const char* key,
   return member ? member->numbers<N>() : otherwise;
 }
 
-Affine local_transform(const JsonValue& node) {
-  if (const std::optional<JsonValue> matrix = node.find("matrix"))
-    return from_columns(matrix->numbers<16>(), *matrix);
+NodePlace read_place(const JsonValue& node) {
+  NodePlace place;
+  if (const std::optional<JsonValue> matrix = node.find("matrix")) {
+    place.matrix = from_columns(matrix->numbers<16>(), *matrix);
+    return place;
+  }
   const std::array<double, 3> t = numbers_or<3>(node, "translation", {0, 0, 0});
   const std::array<double, 3> s = numbers_or<3>(node, "scale", {1, 1, 1});
-  return compose_trs({t[0], t[1], t[2]}, numbers_or<4>(node, "rotation", {0, 0, 0, 1}),
-                     {s[0], s[1], s[2]});
+  place.translation = {t[0], t[1], t[2]};
+  place.rotation = numbers_or<4>(node, "rotation", {0, 0, 0, 1});
+  place.scale = {s[0], s[1], s[2]};
+  return place;
 }
 
 std::vector<std::uint32_t> scene_roots(Document& document, const Links& links) {
@@ -104,27 +109,17 @@ std::vector<std::uint32_t> scene_roots(Document& document, const Links& links) {
 NodeTree read_nodes(Document& document) {
   const Links links = read_links(document);
   NodeTree tree;
-  tree.to_world.resize(links.parents.size());
-  for (const std::uint32_t n : order_of_all(document, links)) {
-    const Affine local = local_transform(document.item("nodes", n));
-    const std::uint32_t parent = links.parents[n];
-    tree.to_world[n] = parent == kNoParent ? local : tree.to_world[parent] * local;
+  tree.rig.nodes.resize(links.parents.size());
+  tree.rig.order = order_of_all(document, links);
+  std::vector<NodePlace> rest(links.parents.size());
+  for (const std::uint32_t n : tree.rig.order) {
+    const JsonValue node = document.item("nodes", n);
+    rest[n] = read_place(node);
+    tree.rig.nodes[n] = {string_or(node, "name", ""), links.parents[n], rest[n]};
   }
+  tree.to_world = tree.rig.to_world(rest);
   tree.order = preorder(links, scene_roots(document, links));
   return tree;
-}
-
-Affine compose_trs(const Vec3d& translation, const std::array<double, 4>& rotation,
-                   const Vec3d& scale) {
-  const auto [x, y, z, w] = rotation;
-  Affine result = Affine::translation(translation);
-  // Without this shortcut -0 and rounding would creep into plain translations.
-  if (rotation != std::array<double, 4>{0, 0, 0, 1}) {
-    const double norm = std::sqrt((x * x + y * y) + (z * z + w * w));
-    result = result * Affine::rotation(x / norm, y / norm, z / norm, w / norm);
-  }
-  if (!(scale == Vec3d(1, 1, 1))) result = result * Affine::scaling(scale);
-  return result;
 }
 
 Affine from_columns(const std::array<double, 16>& columns, const JsonValue& place) {

@@ -10,12 +10,14 @@
 #include <vector>
 
 #include <strahl/io/gltf_document.h>
+#include <strahl/io/rig.h>
 #include <strahl/math/affine.h>
 
 namespace strahl::gltf {
 
 struct NodeTree {
-  std::vector<Affine> to_world;      ///< of every node of the file; not finite where hopeless
+  Rig rig;                           ///< of every node of the file; no mounts yet
+  std::vector<Affine> to_world;      ///< at rest; not finite where hopeless
   std::vector<std::uint32_t> order;  ///< nodes of the scene, depth-first in file order
 };
 
@@ -23,10 +25,6 @@ struct NodeTree {
 /// empty and a warning is left. Throws Error{bad_input}: a node with two parents, a cycle, a
 /// scene listing a child or the same node twice, malformed transforms.
 NodeTree read_nodes(Document& document);
-
-/// Translation, rotation (x, y, z, w; normalised here, all zero gives NaN) and scale, composed.
-Affine compose_trs(const Vec3d& translation, const std::array<double, 4>& rotation,
-                   const Vec3d& scale);
 
 /// A column-major 4x4 matrix. Reports `place` where its last row is not 0 0 0 1.
 Affine from_columns(const std::array<double, 16>& columns, const JsonValue& place);

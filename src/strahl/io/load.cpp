@@ -46,6 +46,21 @@ SceneData load_scene_data(const std::string& scene) {
               "unknown scene format " + quote(extension) + "; known: " + known, scene);
 }
 
+RiggedScene load_rigged_scene(const std::string& scene) {
+  const std::filesystem::path path(scene);
+  const std::string extension = to_lower(path.extension().string());
+  if (!scene.starts_with("gen:") && (extension == ".glb" || extension == ".gltf"))
+    return read_rigged_gltf(map_file(path));
+  RiggedScene result;
+  result.scene = load_scene_data(scene);
+  // As a Scene would add it: one instance of all geometries.
+  if (result.scene.instances.empty() && !result.scene.geometries.empty())
+    result.scene.instances.push_back(
+        {0, static_cast<std::uint32_t>(result.scene.geometries.size()), {}, 0});
+  result.rig = flat_rig(result.scene);
+  return result;
+}
+
 std::vector<std::string> supported_extensions() {
   std::vector<std::string> extensions;
   for (const Format& format : kFormats) extensions.emplace_back(format.extension);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <strahl/geometry/scene.h>
+#include <strahl/io/motion.h>
 
 namespace strahl {
 
@@ -15,6 +16,10 @@ namespace strahl {
 /// Throws Error{bad_input} naming the file: unknown extension, cannot be opened, malformed; those
 /// of generate_scene().
 SceneData load_scene_data(const std::string& scene);
+
+/// The same with all that can move it: the nodes and animations of glTF; for other formats each
+/// instance is a node without a name.
+RiggedScene load_rigged_scene(const std::string& scene);
 
 /// The known extensions, lower case, with their dot, sorted.
 std::vector<std::string> supported_extensions();

@@ -20,6 +20,9 @@ class ObjectVisitor {
  public:
   ObjectVisitor(const Scene& scene, std::uint32_t instance)
       : scene_(scene), first_reference_(scene.first_reference(instance)) {}
+  /// For the primitives of another from number `first` on, which become 0, 1, ...
+  ObjectVisitor(const ObjectVisitor& whole, std::uint32_t first)
+      : scene_(whole.scene_), first_reference_(whole.first_reference_ + first) {}
 
   template <Query Q, class C>
   bool visit(std::uint32_t number, const PreparedRay& object_ray, Q& query, C& counters) {
@@ -30,6 +33,8 @@ class ObjectVisitor {
     return has_stopped_;
   }
   bool has_stopped() const { return has_stopped_; }
+  /// Takes over the end of a traversal of some of its primitives; returns whether it was stopped.
+  bool end_run(const ObjectVisitor& run) { return has_stopped_ = run.has_stopped_; }
 
   template <Query Q>
   bool sees_all(const Q& query) const {

@@ -35,9 +35,10 @@ class BvhBuild {
     context_.require_memory(refs_.size() * bytes_per_primitive(), "bvh");
     if (options_.builder == BvhBuilder::goldsmith_salmon && !is_optimised()) return insert();
     Tree tree = bottom_up_or_divided();
-    if (!ends_in_single_primitives()) return make_hierarchy(tree);
+    if (!ends_in_single_primitives() && options_.arity == 2) return make_hierarchy(tree);
     if (is_optimised()) optimise(tree);
-    tree = limit_depth(std::move(tree), kBvhMaxDepth, cost_, context_);
+    if (ends_in_single_primitives())
+      tree = limit_depth(std::move(tree), kBvhMaxDepth, cost_, context_);
     return make_hierarchy(tree, Collapse(tree, collapse_rules(), context_));
   }
 
@@ -56,8 +57,8 @@ class BvhBuild {
     if (options_.builder == BvhBuilder::scene_graph) bytes += sizeof(ScenePart);
     if (options_.builder == BvhBuilder::agglomerative) bytes += agglomerative_bytes(1);
     if (options_.builder == BvhBuilder::ploc) bytes += kCurveBytes + 16;
-    if (ends_in_single_primitives())
-      bytes += kLinkedBytes + Collapse::bytes(2, kBvhMaxChildren) + kSweepBytes;
+    if (ends_in_single_primitives() || options_.arity > 2)
+      bytes += kLinkedBytes + Collapse::bytes(2, options_.arity) + kSweepBytes;
     if (options_.optimise == BvhOptimise::reinsertion) bytes += reinsertion_bytes(1);
     return bytes;
   }
@@ -119,7 +120,7 @@ class BvhBuild {
     rules.seed = options_.seed, rules.attach_share = options_.attach_share;
     rules.cost = cost_, rules.max_depth = kBvhMaxDepth;
     // The optimisers work on binary trees of single primitives.
-    rules.max_children = is_optimised() ? 2 : kBvhMaxChildren;
+    rules.max_children = is_optimised() ? 2 : options_.arity;
     rules.max_leaf = is_optimised() ? 1 : static_cast<std::size_t>(options_.leaf_size);
     return build_insertion_tree(refs_, rules, context_);
   }
@@ -135,7 +136,7 @@ class BvhBuild {
 
   CollapseRules collapse_rules() const {
     CollapseRules rules;
-    rules.width = kBvhMaxChildren;
+    rules.width = options_.arity;
     rules.max_leaf = static_cast<std::size_t>(options_.leaf_size);
     rules.node_cost = cost_.traverse, rules.leaf_cost = 0.0;
     rules.primitive_cost = cost_.intersect;

@@ -10,10 +10,11 @@ namespace strahl {
 
 /// No path of a bvh is longer.
 inline constexpr int kBvhMaxDepth = 64;
-/// No node has more children.
-inline constexpr int kBvhMaxChildren = 2;
+/// No node has more children, whatever the options.
+inline constexpr int kBvhMaxArity = 16;
 
-/// Over everything that can be hit; without nodes if nothing can. No deeper than kBvhMaxDepth.
+/// Over everything that can be hit; without nodes if nothing can. No deeper than kBvhMaxDepth, no
+/// node with more children than the option allows.
 /// Deterministic for any executor. Throws Error{cancelled} and Error{resource}.
 Hierarchy build_bvh_hierarchy(const PrimitiveSource& source, const BvhOptions& options,
                               const BuildContext& context);

@@ -46,8 +46,22 @@ TEST(BvhBuild, HoldsItsInvariantsWhateverTheBuilder) {
     for (const BvhOptions& options : all_options(leaf_size)) {
       SCOPED_TRACE(name_of(options));
       const Hierarchy tree = build_bvh_hierarchy(source, options, {});
-      check_hierarchy(tree, source.refs, static_cast<std::size_t>(leaf_size), kBvhMaxChildren);
+      check_hierarchy(tree, source.refs, static_cast<std::size_t>(leaf_size), options.arity);
       EXPECT_LE(tree.depth(), kBvhMaxDepth);
+    }
+}
+
+TEST(BvhBuild, MakesWideNodesOnlyWhereAsked) {
+  const Boxes source(random_refs(700, 3));
+  for (const int arity : {2, 3, 8, kBvhMaxArity})
+    for (BvhOptions options : all_options(2)) {
+      options.arity = arity;
+      SCOPED_TRACE(name_of(options));
+      const Hierarchy tree = build_bvh_hierarchy(source, options, {});
+      check_hierarchy(tree, source.refs, 2, arity);
+      std::uint32_t most = 0;
+      for (const HierarchyNode& node : tree.nodes) most = std::max(most, node.children);
+      EXPECT_GT(static_cast<int>(most), arity / 2);
     }
 }
 
@@ -58,7 +72,7 @@ TEST(BvhBuild, StaysWithinTheDepthBoundOnDegenerateInput) {
     for (const BvhOptions& options : all_options(1)) {
       SCOPED_TRACE(input.name + ", " + name_of(options));
       const Hierarchy tree = build_bvh_hierarchy(source, options, {});
-      check_hierarchy(tree, source.refs, 1, kBvhMaxChildren);
+      check_hierarchy(tree, source.refs, 1, options.arity);
       EXPECT_LE(tree.depth(), kBvhMaxDepth);
     }
   }

@@ -18,7 +18,6 @@
 
 namespace strahl {
 
-inline constexpr int kBvhMaxArity = 16;
 
 /// A leaf refers to `size` references from `first`, an inner node has that many children there.
 template <class V>
