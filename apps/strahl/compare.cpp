@@ -34,8 +34,9 @@ struct CompareOptions : CommonOptions {
 
 /// What --structures names: groups and SPECs. Throws Error{usage}.
 std::vector<std::string> specs_of(const std::string& list) {
-  static const std::vector<std::string> kClassic{"grid",   "recursive_grid", "hug", "adaptive_grid",
-                                                 "octree", "kd_tree",        "bih", "bvh"};
+  static const std::vector<std::string> kClassic{
+      "grid",   "recursive_grid", "hug", "adaptive_grid",
+      "octree", "kd_tree",        "bih", "bvh:builder=goldsmith_salmon,arity=16"};
   std::vector<std::string> specs;
   for (const std::string& item : split_specs(list)) {
     if (item == "classic") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <tests/support/hierarchy_check.h>
 #include <tests/support/tree_cases.h>
@@ -61,7 +62,7 @@ TEST(BvhBuild, MakesWideNodesOnlyWhereAsked) {
       check_hierarchy(tree, source.refs, 2, arity);
       std::uint32_t most = 0;
       for (const HierarchyNode& node : tree.nodes) most = std::max(most, node.children);
-      EXPECT_GT(static_cast<int>(most), arity / 2);
+      EXPECT_GT(most, arity == 2 ? 1u : 2u);
     }
 }
 

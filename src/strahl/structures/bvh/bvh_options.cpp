@@ -53,7 +53,8 @@ OptionTable<BvhOptions> option_fields(const BvhOptions*) {
              "goldsmith_salmon: order of insertion"),
       option("seed", &BvhOptions::seed, "of the shuffled order"),
       option("attach_share", &BvhOptions::attach_share, 0.0, 2.0,
-             "goldsmith_salmon with arity > 2: attached where every child would reach this part of the area"),
+             "goldsmith_salmon with arity > 2: attached where every child would reach this part of "
+             "the area"),
       option("arity", &BvhOptions::arity, 2, 16, "most children of a node"),
       option("leaf_size", &BvhOptions::leaf_size, 1, 1024, "most primitives in a leaf"),
       option("traverse_cost", &BvhOptions::traverse_cost, 0.001, 1000.0, "cost of a node step"),

@@ -18,7 +18,6 @@
 
 namespace strahl {
 
-
 /// A leaf refers to `size` references from `first`, an inner node has that many children there.
 template <class V>
 struct BvhNode {
