@@ -191,7 +191,7 @@ void print_orders(const Arguments& arguments) {
 
 /// The spheres of a sphereflake alone.
 ScenePtr sphereflake(int level) {
-  SceneData data = load_scene_data("gen:sphereflake:" + std::to_string(level));
+  SceneData data = load_scene_data("gen:balls:" + std::to_string(level));
   std::erase_if(data.geometries, [](const Geometry& g) { return g.kind != PrimitiveKind::sphere; });
   data.instances.clear();
   return std::make_shared<const Scene>(std::move(data));
