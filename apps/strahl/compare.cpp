@@ -69,12 +69,6 @@ Json options_json(const CompareOptions& options) {
           {"maps", options.maps}};
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 /// The file of a scene's results: named by everything they depend on but the machine.
 std::filesystem::path part_path(const CompareOptions& options, const Scene& scene) {
   const std::string key = options_json(options).dump();
@@ -97,9 +91,9 @@ std::optional<Json> earlier(const std::filesystem::path& path) {
 void write_results(const CompareOptions& options, Json& document) {
   const std::filesystem::path folder(options.output);
   document["summary"] = compare_summary(document["scenes"]);
-  write_text(folder / "compare.json", document.dump(2) + "\n");
-  write_text(folder / "compare.csv", compare_csv(document));
-  write_text(folder / "compare.md", compare_markdown(document));
+  write_text_file(folder / "compare.json", document.dump(2) + "\n");
+  write_text_file(folder / "compare.csv", compare_csv(document));
+  write_text_file(folder / "compare.md", compare_markdown(document));
 }
 
 void write_page(const CompareOptions& options, Session& session, const Json& document) {
@@ -107,7 +101,7 @@ void write_page(const CompareOptions& options, Session& session, const Json& doc
   const std::vector<Chart> charts = compare_charts(document);
   if (!draw_charts(charts, folder / "charts"))
     session.warn("gnuplot is not installed: the page has no charts");
-  write_text(folder / "compare.html", compare_page(document, charts, folder));
+  write_text_file(folder / "compare.html", compare_page(document, charts, folder));
 }
 
 double largest_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
@@ -148,7 +142,7 @@ Json compare_scene(const CompareOptions& options, Session& session, const std::s
                                                         options.comparison, session.context());
   Json json = to_json(comparison, *scene);
   write_maps(options, comparison, part.stem().string(), json["structures"]);
-  write_text(part, json.dump(2) + "\n");
+  write_text_file(part, json.dump(2) + "\n");
   return json;
 }
 

@@ -157,18 +157,12 @@ Chart total_chart(const Json& scene, std::size_t number) {
   return {name, title, script};
 }
 
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text.data(), text.size());
-  file.commit();
-}
-
 /// Runs gnuplot on a script in the folder. Its exit status; -1 where it cannot be started.
 int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
   const std::string place = folder.string();
-  std::string name = "gnuplot", separator = "-e", change = "cd " + quoted(place);
+  std::string name = "gnuplot", execute = "-e", change = "cd " + quoted(place);
   std::string file = script;
-  char* arguments[] = {name.data(), separator.data(), change.data(), file.data(), nullptr};
+  char* arguments[] = {name.data(), execute.data(), change.data(), file.data(), nullptr};
   pid_t child = 0;
   if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
   int status = 0;
@@ -197,7 +191,7 @@ bool draw_charts(const std::vector<Chart>& charts, const std::filesystem::path& 
   std::filesystem::create_directories(folder);
   bool has_gnuplot = true;
   for (const Chart& chart : charts) {
-    write_text(folder / (chart.name + ".gp"), chart.script);
+    write_text_file(folder / (chart.name + ".gp"), chart.script);
     const int status = has_gnuplot ? run_gnuplot(folder, chart.name + ".gp") : -1;
     has_gnuplot = status != -1 && status != 127;
     if (has_gnuplot && status != 0)

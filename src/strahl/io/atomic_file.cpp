@@ -91,4 +91,10 @@ void AtomicFile::fail(const char* action) const {
   throw Error(ErrorCode::resource, action + cause, target_.string());
 }
 
+void write_text_file(const std::filesystem::path& path, std::string_view text) {
+  AtomicFile file(path);
+  file.write(text.data(), text.size());
+  file.commit();
+}
+
 }  // namespace strahl

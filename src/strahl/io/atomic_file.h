@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 
 namespace strahl {
 
@@ -42,5 +43,8 @@ class AtomicFile {
   std::filesystem::path temporary_;  ///< equals target_ when written in place
   std::FILE* stream_ = nullptr;
 };
+
+/// Writes a whole file at once. Throws Error{resource}.
+void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace strahl
