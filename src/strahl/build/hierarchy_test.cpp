@@ -1,3 +1,4 @@
+#include <tests/support/small_trees.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -8,11 +9,7 @@
 namespace strahl {
 namespace {
 
-Aabb cube(double lo, double hi) { return {Vec3d::all(lo), Vec3d::all(hi)}; }
-TreeNode inner(const Aabb& box, std::uint32_t right) { return {box, right, 0, 0}; }
-TreeNode leaf(const Aabb& box, std::uint32_t first, std::uint32_t count) {
-  return {box, 0, first, count};
-}
+using test::cube, test::inner, test::leaf;
 
 /// A root whose left child is inner; three leaves, the middle one with two references.
 Tree three_leaves() {

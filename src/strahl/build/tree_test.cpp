@@ -1,3 +1,4 @@
+#include <tests/support/small_trees.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -7,11 +8,7 @@
 namespace strahl {
 namespace {
 
-Aabb cube(double lo, double hi) { return {Vec3d::all(lo), Vec3d::all(hi)}; }
-TreeNode inner(const Aabb& box, std::uint32_t right) { return {box, right, 0, 0}; }
-TreeNode leaf(const Aabb& box, std::uint32_t first, std::uint32_t count) {
-  return {box, 0, first, count};
-}
+using test::cube, test::inner, test::leaf;
 
 /// Two leaves with one and two references.
 Tree two_leaves() {
