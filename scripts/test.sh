@@ -63,17 +63,23 @@ compare_builds() {
 }
 
 fuzz() {
-  local target name folders broken_files=${STRAHL_SHARED:-../shared}/scenes/bad
+  local target name folders options broken_files=${STRAHL_SHARED:-../shared}/scenes/bad
   configure fuzz
   cmake --build --preset fuzz -j "$jobs"
+  build/release/bin/strahl list --json | tools/spec_dictionary.py > build/fuzz/spec.dict
   for target in build/fuzz/bin/*_fuzz; do
     name=$(basename "$target")
     folders=("build/fuzz/corpus/$name")
     mkdir -p "${folders[0]}"
-    if [ -d "$broken_files" ]; then folders+=("$broken_files"); fi
+    options=()
+    if [ "$name" = spec_fuzz ]; then
+      options=(-max_len=256 -dict=build/fuzz/spec.dict)
+    elif [ -d "$broken_files" ]; then
+      folders+=("$broken_files")
+    fi
     echo "-- $name"
     "$target" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 -verbosity=0 -print_final_stats=1 \
-      -artifact_prefix=build/fuzz/ "${folders[@]}"
+      -artifact_prefix=build/fuzz/ "${options[@]}" "${folders[@]}"
   done
 }
 

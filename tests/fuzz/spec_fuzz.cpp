@@ -12,7 +12,7 @@ namespace {
 
 void parse(std::string_view text) {
   try {
-    const auto empty = std::make_shared<const strahl::Scene>(strahl::SceneData{});
+    static const auto empty = std::make_shared<const strahl::Scene>(strahl::SceneData{});
     strahl::build(empty, text);
   } catch (const strahl::Error&) {
     // A refusal is a good answer.

@@ -6,6 +6,7 @@
 // Thread safety: as for other volumes; one RayData per thread.
 #pragma once
 
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -61,7 +62,9 @@ class AnyVolume {
   using RayData = AnyRay;
 
   AnyVolume() = default;  ///< an empty box
-  template <BoundingVolume V>
+  // Not of itself: clang would ask whether it is copyable to find out whether it is copyable.
+  template <class V>
+    requires(!std::same_as<V, AnyVolume>) && BoundingVolume<V>
   explicit AnyVolume(V volume) {
     constexpr auto kIndex = static_cast<std::size_t>(V::kKind);
     if constexpr (any_volume_detail::kIsSmall<V>)

@@ -120,7 +120,7 @@ class BvhBuild {
     rules.seed = options_.seed, rules.attach_share = options_.attach_share;
     rules.cost = cost_, rules.max_depth = kBvhMaxDepth;
     // The optimisers work on binary trees of single primitives.
-    rules.max_children = is_optimised() ? 2 : options_.arity;
+    rules.max_children = is_optimised() ? 2U : static_cast<std::uint32_t>(options_.arity);
     rules.max_leaf = is_optimised() ? 1 : static_cast<std::size_t>(options_.leaf_size);
     return build_insertion_tree(refs_, rules, context_);
   }
