@@ -134,12 +134,24 @@ void write_maps(const CompareOptions& options, const SceneComparison& comparison
   }
 }
 
+/// What the advisor is told, where "auto" is among the structures.
+AdviceOptions rays_of(const ComparisonOptions& options, const View& view) {
+  AdviceOptions rays;
+  rays.view = view;
+  rays.workload = options.workloads.front();
+  rays.rays = static_cast<double>(options.rays * options.workloads.size());
+  return rays;
+}
+
 Json compare_scene(const CompareOptions& options, Session& session, const std::string& name) {
   const std::shared_ptr<const Scene> scene = session.load(name);
   const std::filesystem::path part = part_path(options, *scene);
   if (std::optional<Json> known = earlier(part)) return *known;
-  const SceneComparison comparison = compare_structures(scene, default_view(*scene, 512, 512),
-                                                        options.comparison, session.context());
+  const View view = default_view(*scene, 512, 512);
+  ComparisonOptions wanted = options.comparison;
+  for (std::string& spec : wanted.specs)
+    spec = session.chosen_spec(scene, spec, rays_of(wanted, view));
+  const SceneComparison comparison = compare_structures(scene, view, wanted, session.context());
   Json json = to_json(comparison, *scene);
   write_maps(options, comparison, part.stem().string(), json["structures"]);
   write_text_file(part, json.dump(2) + "\n");

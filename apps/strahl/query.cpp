@@ -21,6 +21,7 @@
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/hit_file.h>
 #include <strahl/io/ray_file.h>
+#include <strahl/measure/comparison.h>
 
 namespace strahl::cli {
 namespace {
@@ -274,6 +275,28 @@ Json report(const QueryOptions& options, const Accelerator& accelerator, std::si
   return json;
 }
 
+/// Some of the rays, for the advisor.
+Workload sample_of(const RayFile& rays, QueryKind kind) {
+  constexpr std::size_t kSample = 2048;
+  Workload sample;
+  std::vector<Ray>& some = kind == QueryKind::any ? sample.any : sample.closest;
+  RayFile::Chunk chunk;
+  for (const std::size_t i : spread_blocks(rays.size(), kSample)) {
+    rays.load(i, 1, chunk);
+    some.push_back(chunk.rays.ray(0));
+  }
+  return sample;
+}
+
+std::unique_ptr<Accelerator> build_for(const RayFile& rays, QueryKind kind,
+                                       const QueryOptions& options, Session& session) {
+  const std::shared_ptr<const Scene> scene = session.load(options.scene);
+  const Workload sample = sample_of(rays, kind);
+  AdviceOptions rays_to_come;
+  rays_to_come.rays = static_cast<double>(rays.size()), rays_to_come.sample = &sample;
+  return session.build(scene, options.spec, rays_to_come);
+}
+
 int run_query(const QueryOptions& options) {
   const QueryKind kind = query_kind(options.query);
   check_output(options);
@@ -281,8 +304,7 @@ int run_query(const QueryOptions& options) {
   Session session(options);
   if (kind == QueryKind::all && rays.size() > 0xffffffffu)
     throw Error(ErrorCode::resource, "more than 2^32 - 1 rays", options.rays);
-  const std::unique_ptr<Accelerator> accelerator =
-      session.build(session.load(options.scene), options.spec);
+  const std::unique_ptr<Accelerator> accelerator = build_for(rays, kind, options, session);
   const Outcome outcome = QueryRun(*accelerator, rays, options, session.context()).run(kind);
   session.finish_progress();
   if (outcome.report.invalid_rays > 0)

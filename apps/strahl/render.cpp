@@ -95,13 +95,27 @@ Json report(const RenderArguments& arguments, const Accelerator& accelerator,
   return json;
 }
 
+/// About how many rays of which kind a picture takes, for the advisor.
+AdviceOptions rays_of(const RenderOptions& options) {
+  AdviceOptions rays;
+  rays.view = options.view;
+  const bool is_path = options.mode == RenderMode::path;
+  rays.workload = is_path                          ? WorkloadKind::diffuse
+                  : options.mode == RenderMode::ao ? WorkloadKind::ao
+                                                   : WorkloadKind::primary;
+  constexpr double kRaysPerPath = 6.0;
+  rays.rays = static_cast<double>(options.view.width) * options.view.height *
+              sample_count(options) * (is_path ? kRaysPerPath : 2.0);
+  return rays;
+}
+
 int run_render(const RenderArguments& arguments) {
   const Format format = output_format(arguments);
   Session session(arguments);
   const std::shared_ptr<const Scene> scene = session.load(arguments.scene);
   const RenderOptions options = make_options(arguments, *scene, format);
-  const std::unique_ptr<Accelerator> accelerator =
-      session.build(scene, arguments.spec.empty() ? std::string(kDefaultSpec) : arguments.spec);
+  const std::unique_ptr<Accelerator> accelerator = session.build(
+      scene, arguments.spec.empty() ? std::string(kDefaultSpec) : arguments.spec, rays_of(options));
   const Timer timer;
   const RenderResult result = render(*accelerator, options, session.context());
   const double seconds = timer.seconds();

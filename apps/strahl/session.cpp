@@ -75,9 +75,23 @@ std::shared_ptr<const Scene> Session::load(const std::string& scene) {
   return std::make_shared<const Scene>(std::move(data));
 }
 
+std::string Session::chosen_spec(const std::shared_ptr<const Scene>& scene, const std::string& spec,
+                                 const AdviceOptions& rays_to_come) {
+  if (spec != "auto") return spec;
+  const Advice advice = advise(scene, rays_to_come, context_);
+  if (!quiet_) {
+    bar_.clear();
+    fmt::print(stderr, "strahl: auto: {} ({:.0f} % sure)\n", advice.fastest().spec,
+               100.0 * advice.confidence);
+  }
+  return advice.fastest().spec;
+}
+
 std::unique_ptr<Accelerator> Session::build(std::shared_ptr<const Scene> scene,
-                                            const std::string& spec) {
-  return strahl::build(std::move(scene), spec, context_);
+                                            const std::string& spec,
+                                            const AdviceOptions& rays_to_come) {
+  const std::string chosen = chosen_spec(scene, spec, rays_to_come);
+  return strahl::build(std::move(scene), chosen, context_);
 }
 
 void Session::warn(const std::string& text) {

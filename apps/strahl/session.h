@@ -17,6 +17,7 @@
 #include <strahl/catalog/accelerator.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/io/motion.h>
+#include <strahl/measure/advisor.h>
 
 namespace strahl::cli {
 
@@ -56,7 +57,12 @@ class Session {
   std::shared_ptr<const Scene> load(const std::string& scene);
   /// The data with all that can move them, masked likewise.
   RiggedScene load_rigged(const std::string& scene);
-  std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, const std::string& spec);
+  /// The SPEC as it is, or for "auto" the advisor's for the rays to come; says so on stderr.
+  std::string chosen_spec(const std::shared_ptr<const Scene>& scene, const std::string& spec,
+                          const AdviceOptions& rays_to_come);
+  /// Builds what chosen_spec() says.
+  std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, const std::string& spec,
+                                     const AdviceOptions& rays_to_come = {});
 
   /// "strahl: warning: ..." on stderr unless --quiet.
   void warn(const std::string& text);

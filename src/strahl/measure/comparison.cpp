@@ -4,9 +4,9 @@
 #include <utility>
 
 #include <strahl/base/error.h>
-#include <strahl/base/timer.h>
 #include <strahl/catalog/catalog.h>
 #include <strahl/measure/comparison.h>
+#include <strahl/measure/stopwatch.h>
 #include <strahl/render/render.h>
 
 namespace strahl {
@@ -70,8 +70,10 @@ class Comparison {
       : options_(options), context_(context) {
     if (options.specs.empty()) throw Error(ErrorCode::usage, "no structure to compare", "compare");
     for (const std::string& spec : options.specs) {
+      const Stopwatch watch(context.executor);
       built_.push_back(build(scene, spec, context));
-      result_.rows.push_back({built_.back()->spec(), built_.back()->report(), {}, {}});
+      build_seconds_.push_back(watch.seconds());
+      result_.rows.push_back({built_.back()->spec(), {}, {}, {}});
     }
   }
 
@@ -85,7 +87,10 @@ class Comparison {
     if (options_.map_width > 0)
       for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].maps = draw(*built_[i], view);
     // Some build on while rays are traced.
-    for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].build = built_[i]->report();
+    for (std::size_t i = 0; i < built_.size(); ++i) {
+      result_.rows[i].build = built_[i]->report();
+      result_.rows[i].build.seconds = build_seconds_[i];
+    }
     return std::move(result_);
   }
 
@@ -133,7 +138,7 @@ class Comparison {
     constexpr std::size_t kTrial = 1024;
     const Selection trial = select(workload, kTrial);
     Answers answers;
-    const Timer timer;
+    const Stopwatch timer(context_.executor);
     trace(accelerator, trial, answers, quiet());
     const double per_ray =
         timer.seconds() / static_cast<double>(std::max<std::size_t>(trial.size(), 1));
@@ -153,7 +158,7 @@ class Comparison {
 
   void time(std::size_t i, const Selection& rays, const Answers& expected) {
     Answers answers;
-    const Timer timer;
+    const Stopwatch timer(context_.executor);
     trace(*built_[i], rays, answers, quiet());
     result_.rows[i].cells.back().seconds.push_back(timer.seconds());
     require_equal(i, rays, answers, expected);
@@ -183,6 +188,7 @@ class Comparison {
   const ComparisonOptions& options_;
   const BuildContext& context_;
   std::vector<std::unique_ptr<Accelerator>> built_;
+  std::vector<double> build_seconds_;
   SceneComparison result_;
 };
 

@@ -35,14 +35,14 @@ struct WorkMaps {
 struct ComparisonCell {
   WorkloadKind workload = WorkloadKind::primary;
   std::size_t rays = 0;         ///< per repeat
-  std::vector<double> seconds;  ///< of each repeat
+  std::vector<double> seconds;  ///< of each repeat, by Stopwatch
   Counters counters;            ///< of `rays` rays
 };
 
 /// One structure.
 struct ComparisonRow {
   std::string spec;
-  BuildReport build;                  ///< after all rays
+  BuildReport build;                  ///< after all rays; seconds by Stopwatch
   std::vector<ComparisonCell> cells;  ///< in the order of the workloads
   WorkMaps maps;
 };

@@ -1,0 +1,54 @@
+// measure/advisor.h - which structure answers a number of rays soonest, found out by a trial.
+//
+// Each candidate is built over the scene and asked rays of the kind that is to come. A large scene
+// is thinned first, to two sizes: the growth of build time, time per ray and memory between them
+// is continued up to the whole scene as a power of the number of primitives. Nothing is fitted
+// beforehand but the list of candidates and how wrong such a continuation is on average, so that
+// advice holds for the machine it is given on. A trial takes about a second.
+// Thread safety: one trial at a time per process, or times mean nothing.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <strahl/measure/workloads.h>
+
+namespace strahl {
+
+/// The SPECs of which one was soonest wherever all structures were compared (docs/findings.md).
+const std::vector<std::string>& advisor_candidates();
+
+struct AdviceOptions {
+  View view;                                     ///< for the workloads that look from somewhere
+  WorkloadKind workload = WorkloadKind::random;  ///< of the rays to come
+  double rays = 1e6;                             ///< number of rays to come
+  /// Rays like those to come; null: some of the workload are made.
+  const Workload* sample = nullptr;
+  std::vector<std::string> candidates = advisor_candidates();
+  std::uint64_t seed = 1;
+};
+
+/// What one candidate is expected to take.
+struct Prediction {
+  std::string spec;
+  double build_seconds = 0.0, seconds_per_ray = 0.0, bytes = 0.0;
+  double total_seconds = 0.0;  ///< build and all rays
+};
+
+struct Advice {
+  std::vector<Prediction> predictions;  ///< soonest first
+  double confidence = 0.0;              ///< chance that the first is the soonest of them
+  std::uint32_t trial_primitives = 0;   ///< of the largest scene tried
+  double trial_seconds = 0.0;           ///< that the trial took
+
+  const Prediction& fastest() const { return predictions.front(); }
+  /// Least memory; of equals the soonest.
+  const Prediction& smallest() const;
+};
+
+/// Throws Error: usage for no candidate, a bad SPEC or fewer than 0 rays; resource, cancelled.
+Advice advise(const std::shared_ptr<const Scene>& scene, const AdviceOptions& options,
+              const BuildContext& context = {});
+
+}  // namespace strahl
