@@ -44,6 +44,14 @@ std::string color(std::size_t i) {
 std::string line(std::size_t i) { return color(i) + fmt::format(" lw 1.6 dt {}", 1 + i / 10); }
 std::string point(std::size_t i) { return color(i) + fmt::format(" pt {} ps 0.8", 4 + i % 11); }
 
+/// The SPEC of structure i, short enough to leave room for the chart.
+std::string label(const Json& row, std::size_t i) {
+  constexpr std::size_t kLongest = 26;
+  const std::string spec = text_of(row["spec"]);
+  if (spec.size() <= kLongest) return quoted(spec);
+  return quoted(fmt::format("{}.. [{}]", spec.substr(0, kLongest - 6), i + 1));
+}
+
 enum class Marks { lines, points, both };
 
 /// "plot" of data blocks $d0, $d1, ... titled by structure.
@@ -54,7 +62,7 @@ std::string plot_blocks(const Json& rows, Marks marks) {
                              : marks == Marks::points ? "points " + point(i)
                                                       : "linespoints lw 1.6 " + point(i);
     text += fmt::format("{}$d{} using 1:2 with {} title {}", i > 0 ? ", " : "", i, with,
-                        quoted(text_of(rows[i]["spec"])));
+                        label(rows[i], i));
   }
   return text + "\n";
 }
@@ -65,14 +73,17 @@ std::string block(std::size_t i, const std::vector<std::pair<double, double>>& p
   return text + "EOD\n";
 }
 
-/// Some room on both sides, which one scene alone would not give.
+/// Some room on both sides of positive values, which one alone would not give.
+std::string log_range(const char* axis, const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, *least / 2, *most * 2);
+}
+
 std::string size_range(const Json& scenes) {
-  double least = 1e18, most = 1.0;
-  for (const Json& scene : scenes) {
-    const double size = std::max(scene["primitives"].get<double>(), 1.0);
-    least = std::min(least, size), most = std::max(most, size);
-  }
-  return fmt::format("set xrange [{:.6g}:{:.6g}]\n", least / 2, most * 2);
+  std::vector<double> sizes;
+  for (const Json& scene : scenes)
+    sizes.push_back(std::max(scene["primitives"].get<double>(), 1.0));
+  return log_range("x", sizes);
 }
 
 Chart size_chart(const Json& scenes, std::size_t w, const std::string& workload) {
@@ -101,7 +112,7 @@ Chart rank_chart(const Json& summary) {
   std::string ticks, data = "$d << EOD\n";
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const double rank = structures[i]["mean_rank"].get<double>();
-    ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", quoted(text_of(structures[i]["spec"])), i);
+    ticks += fmt::format("{}{} {}", i > 0 ? ", " : "", label(structures[i], i), i);
     data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", rank, i, rank - half, rank + half);
   }
   return {name, title,
@@ -124,6 +135,7 @@ Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workloa
                             "million rays per second (geometric mean)") +
                        "set logscale xy\n";
   const Json& rows = scenes[0]["structures"];
+  std::vector<double> all_bytes, all_speeds;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double bytes = geometric_mean_over(scenes, [&](const Json& scene) {
       return scene["structures"][i]["build"]["bytes_per_primitive"].get<double>();
@@ -131,8 +143,10 @@ Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workloa
     const double speed = geometric_mean_over(scenes, [&](const Json& scene) {
       return scene["structures"][i]["workloads"][w]["mrays"].get<double>();
     });
-    script += block(i, {{std::max(bytes, 0.1), speed}});
+    all_bytes.push_back(std::max(bytes, 0.1)), all_speeds.push_back(speed);
+    script += block(i, {{all_bytes.back(), speed}});
   }
+  script += log_range("x", all_bytes) + log_range("y", all_speeds);
   return {name, title, script + plot_blocks(rows, Marks::points)};
 }
 
