@@ -13,7 +13,7 @@
 namespace strahl {
 namespace {
 
-constexpr std::uint32_t kTrialPrimitives = 24'000, kSmallTrialPrimitives = 6'000;
+constexpr std::uint32_t kTrialPrimitives = 72'000, kSmallTrialPrimitives = 18'000;
 constexpr std::uint32_t kBruteForcePrimitives = 1'000;
 constexpr std::size_t kTrialRays = 2048;
 constexpr int kRounds = 3;

@@ -115,7 +115,7 @@ TEST(Advisor, WeighsBuildingAgainstRays) {
 }
 
 TEST(Advisor, ContinuesLargeScenesFromThinnedOnes) {
-  const auto scene = scene_of("soup:60000");
+  const auto scene = scene_of("soup:160000");
   AdviceOptions options;
   options.candidates = {"bvh:builder=lbvh", "wide_bvh"};
   const Advice advice = advise(scene, options);
