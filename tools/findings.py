@@ -27,6 +27,9 @@ def variants(base, *options):
     return [base + (":" + option if option else "") for option in options]
 
 
+STANDARD = ("gen:balls:4,gen:gears:4,gen:lattice:12,gen:mount:6,gen:rings:7,gen:teapot:12,"
+            "gen:tetra:6,gen:tree:11")
+OCTREE = "max_depth=6,max_prims=1,max_growth=1000000"
 COSTS = (0.05, 0.1, 0.2, 0.4, 0.7, 1.4, 3, 6, 12, 25, 50, 80)
 SECTIONS = {
     "naive": ("random", variants("kd_tree", "", "split=middle,axis=round_robin", "split=middle",
@@ -66,14 +69,24 @@ SECTIONS = {
         "builder=goldsmith_salmon", "builder=lbvh", "builder=ploc",
         "builder=median_longest,optimise=reinsertion", "optimise=reinsertion",
         "optimise=rotations")),
+    # The parameters of Havran's comparison of twelve structures, beside today's default.
+    "classic": ("whitted", [
+        "kd_tree:max_depth=16,max_leaf=2",
+        "kd_tree:split=middle,axis=round_robin,max_depth=16,max_leaf=2", "grid:density=3",
+        "bvh:builder=goldsmith_salmon,arity=16", "adaptive_grid:f=1.5,m=0.5",
+        "recursive_grid:density=3,max_depth=3,max_prims=8",
+        "hug:groups=3,connectivity=0,min_cluster=8", f"octree:split=middle,{OCTREE}",
+        f"octree:{OCTREE}", f"octree:split=middle,traversal=neighbour,{OCTREE}", "bvh",
+        "wide_bvh"], STANDARD),
     "costs": ("random", variants("kd_tree", *(f"intersect_cost={c:g}" for c in COSTS))),
 }
 
 
 def compare(arguments, section, folder):
-    workload, specs = SECTIONS[section]
+    workload, specs, *scenes = SECTIONS[section]
+    scenes = scenes[0] if scenes else arguments.scenes
     done = subprocess.run(
-        [arguments.strahl, "compare", *arguments.scenes.split(","), "--quiet", "--structures",
+        [arguments.strahl, "compare", *scenes.split(","), "--quiet", "--structures",
          ",".join(specs), "--workloads", workload, "--rays", str(arguments.rays), "--min-rays",
          "2000", "--repeat", "5", "--budget", "0.25", "--maps", "none", "-o", folder],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -102,7 +115,7 @@ def row_of(scenes, i):
 
 
 def print_table(section, document):
-    workload, specs = SECTIONS[section]
+    workload, specs = SECTIONS[section][:2]
     print(f"\n### {section} ({workload})\n")
     print("| SPEC | time | N_TS | N_ETS | N_IT | N_BIT | build s | bytes | SAH |")
     print("|---|---|---|---|---|---|---|---|---|")
