@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <concepts>
 #include <utility>
 
@@ -27,7 +28,7 @@ inline void make_unique(std::vector<Hit>& hits) {
 }
 
 /// A structure that prepares rays itself, by trace_ray(), and takes float rays without filters a
-/// shorter way, by float_trace().
+/// shorter way, a block at a time, by float_trace().
 template <class S>
 concept TracesFloats = requires(const S& s) {
   { s.traces_floats() } -> std::same_as<bool>;
@@ -135,26 +136,24 @@ class Erased final : public Accelerator {
     return job.rays.ray(i);
   }
 
-  /// Calls body(i, ray, filter) for the valid rays of the span and counts the others.
-  /// @param is_done (i) -> whether that ray needs nothing more
-  template <class Body, class IsDone>
-  static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body, IsDone is_done) {
-    Pulse pulse(job);
-    for (std::size_t i = job.begin; i < job.end; ++i) {
-      pulse.beat(i);
-      if (is_done(i)) continue;
-      const Ray ray = ray_of(job, i);
-      if (is_valid(ray))
-        body(i, ray, job.rays.filter(i));
-      else
-        ++report.invalid_rays;
-    }
-    pulse.beat(job.end);
+  /// Calls body(i, ray, filter) for a valid ray, counts others.
+  template <class Body>
+  static void for_valid_ray(const SpanJob& job, BatchReport& report, std::size_t i, Body& body) {
+    const Ray ray = ray_of(job, i);
+    if (is_valid(ray))
+      body(i, ray, job.rays.filter(i));
+    else
+      ++report.invalid_rays;
   }
 
   template <class Body>
   static void for_valid_rays(const SpanJob& job, BatchReport& report, Body body) {
-    for_valid_rays(job, report, body, [](std::size_t) { return false; });
+    Pulse pulse(job);
+    for (std::size_t i = job.begin; i < job.end; ++i) {
+      pulse.beat(i);
+      for_valid_ray(job, report, i, body);
+    }
+    pulse.beat(job.end);
   }
 
   /// One answer per ray; T{} for invalid rays.
@@ -169,17 +168,29 @@ class Erased final : public Accelerator {
     };
     if constexpr (TracesFloats<S>) {
       if (structure_.traces_floats() && is_plain(job.rays) && !scene_->has_hidden_geometry()) {
-        auto fast = structure_.template float_trace<Q>(prims, counters);
         const FloatRays rays(job.rays);
-        for_valid_rays(job, report, slow, [&](std::size_t i) {
-          out[i] = T{};
-          return fast.run(rays.org(i), rays.dir(i), rays.t_min(i), rays.t_max(i), out[i]);
-        });
+        auto fast = structure_.template float_trace<Q>(prims, rays, counters);
+        answer_blocks(job, report, fast, out, slow);
         return;
       }
     }
     std::fill(out + job.begin, out + job.end, T{});
     for_valid_rays(job, report, slow);
+  }
+
+  /// Blocks of rays at a time, and one by one those that are left.
+  template <class Fast, class T, class Slow>
+  static void answer_blocks(const SpanJob& job, BatchReport& report, Fast& fast, T* out,
+                            Slow slow) {
+    Pulse pulse(job);
+    for (std::size_t i = job.begin, n; i < job.end; i += n) {
+      pulse.beat(i);
+      n = std::min(Fast::kBlock - i % Fast::kBlock, job.end - i);
+      std::uint64_t left = fast.run(i, static_cast<std::uint32_t>(n), out + i);
+      for (; left != 0; left &= left - 1)
+        for_valid_ray(job, report, i + static_cast<std::size_t>(std::countr_zero(left)), slow);
+    }
+    pulse.beat(job.end);
   }
 
   template <class C>

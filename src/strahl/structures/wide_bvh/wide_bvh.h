@@ -60,9 +60,10 @@ class WideBvh {
 
   /// Whether float rays without filters may be traced by a float_trace() of this structure.
   bool traces_floats() const { return tree_.frame.is_identity() && !tree_.is_empty(); }
+  /// @param rays must outlive it, as prims and counters
   template <class Q, class Prims, class C>
-  auto float_trace(Prims& prims, C& counters) const {
-    return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, prims, counters);
+  auto float_trace(Prims& prims, const FloatRays& rays, C& counters) const {
+    return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, prims, rays, counters);
   }
 
   const BuildReport& report() const { return report_; }

@@ -2,12 +2,13 @@
 // float rays without filters, for the first or any hit in a tree that keeps the scene's
 // coordinates.
 //
-// The ray is prepared in floats, and doubles are made only for the t of the hit and for what the
-// kernel cannot decide, so that a ray costs little more than its traversal.
+// Rays are made ready by vectors, a block at a time, and doubles are made only for the t of the
+// hits and for what the kernel cannot decide, so that a ray costs little more than its traversal.
 #pragma once
 
 #include <optional>
 
+#include <strahl/query/float_rays.h>
 #include <strahl/structures/wide_bvh/wide_trace.h>
 
 namespace strahl {
@@ -16,105 +17,137 @@ namespace strahl {
 template <class Prims, class Q, class C>
 class WideFloatTrace {
  public:
-  WideFloatTrace(const WideTree& tree, const WideKernel& kernel, Prims& prims, C& counters)
+  using Answer = std::conditional_t<std::is_same_v<Q, AnyHit>, std::uint8_t, Hit>;
+  static constexpr std::size_t kBlock = kWideBlock;  ///< most rays at a time
+
+  WideFloatTrace(const WideTree& tree, const WideKernel& kernel, Prims& prims,
+                 const FloatRays& given, C& counters)
       : tree_(tree),
+        kernel_(kernel),
         prims_(prims),
+        given_(given),
         counters_(counters),
         traverse_(kernel.find(kIsAny ? WideMode::any : WideMode::closest, kIsCounted, tree.width)) {
   }
   WideFloatTrace(const WideFloatTrace&) = delete;
   WideFloatTrace& operator=(const WideFloatTrace&) = delete;
 
-  /// The first hit, or whether there is any; false, and no answer, for a ray that needs doubles.
-  /// @param answer a miss, as made by its default
-  template <class Answer>
-  bool run(const Vec3f& org, const Vec3f& dir, float t_min, float t_max, Answer& answer) {
-    WideRay wide;
-    if (!wide.set_floats(org, dir, t_min, t_max, tree_.frame)) return false;
-    org_ = org, dir_ = dir, t_min_ = t_min, t_max_ = t_max, wide_ = &wide;
-    WideState state;
-    state.context = this, state.resolve = &resolve;
-    const float last = t_max < kWideMostT ? t_max : kWideMostT / 2;
-    state.upper = float_a_little_above(last), state.lower = float_a_little_below(last);
-    traverse_(tree_, wide, state);
-    finish(state, answer);
-    add_counts(state.counts, counters_);
-    slow_.reset();
-    return true;
+  /// The first hits of rays first .. first + count - 1, or whether they have any.
+  /// @return bits of those that need doubles or are invalid: they are given as misses
+  std::uint64_t run(std::size_t first, std::uint32_t count, Answer* answers) {
+    first_ = first, answers_ = answers;
+    take(count);
+    const std::uint64_t suited =
+        kernel_.prepare(rays_, count, static_cast<float>(tree_.frame.reach));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      found_[i] = {rays_.upper[i], rays_.lower[i]};
+      answers[i] = Answer{};
+    }
+    WideJob job{tree_, rays_, found_, this, &resolve};
+    traverse_(job, suited);
+    for (std::uint32_t i = 0; i < count; ++i) finish(i);
+    add_counts(job.counts, counters_);
+    return ~suited & (~std::uint64_t{0} >> (kWideBlock - count));
   }
 
  private:
   static constexpr bool kIsAny = std::is_same_v<Q, AnyHit>;
   static constexpr bool kIsCounted = !std::is_same_v<C, NoCounters>;
+  static constexpr std::size_t kNone = ~std::size_t{0};
 
-  /// What is needed once a lane must be decided exactly.
-  struct Slow {
-    Ray ray;
-    PreparedRay prepared;
-    Q query;
-    Slow(const Ray& r, const RayFrame& frame) : ray(r), prepared(r, frame), query(r, HitFilter{}) {}
-  };
-
-  void finish(WideState& state, std::uint8_t& answer) {
-    answer = state.is_found || (slow_ && slow_->query.found);
-  }
-  void finish(WideState& state, Hit& answer) {
-    if (state.candidate != 0)
-      settle(state, answer);
-    else if (slow_)
-      answer = slow_->query.best;
+  /// Copies the rays, and zeros into the lanes of vectors behind them.
+  void take(std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Vec3f org = given_.org(first_ + i), dir = given_.dir(first_ + i);
+      for (int a = 0; a < 3; ++a) rays_.org[a][i] = org[a], rays_.dir[a][i] = dir[a];
+      rays_.t_enter[i] = given_.t_min(first_ + i), rays_.upper[i] = given_.t_max(first_ + i);
+    }
+    for (std::uint32_t i = count; i % kWideMaxLanes != 0; ++i) {
+      for (int a = 0; a < 3; ++a) rays_.org[a][i] = rays_.dir[a][i] = 0.0f;
+      rays_.t_enter[i] = rays_.upper[i] = 0.0f;
+    }
   }
 
-  static bool resolve(WideState& state, WideId leaf, std::uint32_t lanes) {
-    auto& self = *static_cast<WideFloatTrace*>(state.context);
-    if (!self.slow_)
-      self.slow_.emplace(
-          Ray{Vec3d(self.org_), Vec3d(self.dir_), double{self.t_min_}, double{self.t_max_}},
-          self.prims_.scene().world_frame());
-    return self.decide(state, leaf, lanes);
+  void finish(std::uint32_t i) {
+    if constexpr (kIsAny)
+      answers_[i] |= std::uint8_t{found_[i].is_found};
+    else if (found_[i].candidate != 0)
+      settle(i);
   }
 
-  bool decide(WideState& state, WideId leaf, std::uint32_t lanes) {
+  static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {
+    return static_cast<WideFloatTrace*>(job.context)->decide(ray, leaf, lanes);
+  }
+
+  bool decide(std::uint32_t i, WideId leaf, std::uint32_t lanes) {
     if constexpr (!kIsAny)
-      if (state.candidate != 0) settle(state, slow_->query.best);
+      if (found_[i].candidate != 0) settle(i);
+    const PreparedRay& ray = prepared(i);
+    Q query({ray.org, ray.dir, ray.t_min, ray.t_max}, HitFilter{});
+    if constexpr (!kIsAny) query.best = answers_[i];
     const std::uint32_t* references = reference_row(tree_.at(leaf), lanes_of(leaf));
     NoCounters uncounted;  // the kernel has counted the lanes
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const std::uint32_t reference = references[std::countr_zero(lanes)];
-      if (prims_.visit(reference, slow_->prepared, slow_->query, uncounted)) return true;
+    for (; lanes != 0; lanes &= lanes - 1)
+      if (prims_.visit(references[std::countr_zero(lanes)], ray, query, uncounted)) break;
+    if constexpr (kIsAny) {
+      answers_[i] = std::uint8_t{query.found};
+      return query.found;
+    } else {
+      answers_[i] = query.best;
+      narrow(found_[i], query.best.t * double{rays_.per_t[i]});
+      return false;
     }
-    if (slow_->query.t_max() < Aabb::kInf) {
-      state.upper = wide_->upper(slow_->query.t_max());
-      state.lower = wide_->lower(slow_->query.t_max());
+  }
+
+  /// Bounds around the frame's t of a hit; they stay where there is none.
+  static void narrow(WideAnswer& found, double t) {
+    if (!(t < double{kWideMostT} / 2)) return;
+    found.upper = float_a_little_above(static_cast<float>(t));
+    found.lower = float_a_little_below(static_cast<float>(t));
+  }
+
+  const PreparedRay& prepared(std::uint32_t i) {
+    if (prepared_index_ != first_ + i) {
+      prepared_index_ = first_ + i;
+      prims_.begin_ray();
+      const Ray ray{Vec3d(given_.org(first_ + i)), Vec3d(given_.dir(first_ + i)),
+                    double{given_.t_min(first_ + i)}, double{given_.t_max(first_ + i)}};
+      prepared_.emplace(ray, prims_.scene().world_frame());
     }
-    return false;
+    return *prepared_;
   }
 
   /// The candidate with its canonical t.
-  void settle(WideState& state, Hit& hit) const {
-    const std::byte* leaf = tree_.at(state.candidate);
-    const std::uint32_t lanes = lanes_of(state.candidate), lane = state.candidate_lane;
-    state.candidate = 0;
+  void settle(std::uint32_t i) {
+    Hit& hit = answers_[i];
+    WideAnswer& found = found_[i];
+    const std::byte* leaf = tree_.at(found.candidate);
+    const std::uint32_t lanes = lanes_of(found.candidate), lane = found.candidate_lane;
+    found.candidate = 0;
     const std::uint32_t reference = reference_row(leaf, lanes)[lane];
-    const Vec3d org(org_), dir(dir_);
+    const Vec3d org(given_.org(first_ + i)), dir(given_.dir(first_ + i));
     TriangleVertices triangle;
     if (tree_.has_exact_corners)
       triangle = stored_corners(leaf, lanes, lane);
     else
       prims_.scene().triangle(reference, triangle);
     hit.id = prims_.blank_hit(reference).id;
-    hit.is_front = state.candidate_is_front, hit.reference = reference;
+    hit.is_front = found.candidate_is_front, hit.reference = reference;
     hit.t = *crossing_t(org, dir, triangle, triangle.a - org) + 0.0;
   }
 
   const WideTree& tree_;
+  const WideKernel& kernel_;
   Prims& prims_;
+  const FloatRays& given_;
   C& counters_;
   WideTraverse traverse_;
-  Vec3f org_, dir_;
-  float t_min_ = 0, t_max_ = 0;
-  const WideRay* wide_ = nullptr;
-  std::optional<Slow> slow_;
+  std::size_t first_ = 0;
+  Answer* answers_ = nullptr;
+  std::size_t prepared_index_ = kNone;
+  std::optional<PreparedRay> prepared_;
+  WideRays rays_;
+  WideAnswer found_[kWideBlock];
 };
 
 }  // namespace strahl

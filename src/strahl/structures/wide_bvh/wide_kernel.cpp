@@ -15,6 +15,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <strahl/structures/wide_bvh/wide_prepare-inl.h>
 #include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -30,7 +31,7 @@ void add_mode(WideKernel& kernel) {
 
 WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
-  kernel.isa = isa;
+  kernel.isa = isa, kernel.prepare = &prepare;
   kernel.best_width = HWY_MAX_BYTES >= 64 ? 16 : 8;
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);

@@ -24,8 +24,8 @@ struct WideCounts {
   std::uint64_t nodes = 0, boxes = 0, leaves = 0, lanes = 0;
 };
 
-/// One traversal under way; shared by kernel and resolve.
-struct WideState {
+/// What is known of one ray's hits; shared by kernel and resolve.
+struct WideAnswer {
   float upper;           ///< lanes certainly behind it are not wanted
   float lower;           ///< lanes certainly before it are better than all that is known
   WideId candidate = 0;  ///< leaf of a certain hit, nearer than all resolved ones; 0: none
@@ -33,21 +33,30 @@ struct WideState {
   std::uint32_t candidate_reference = 0;
   bool candidate_is_front = false;
   bool is_found = false;  ///< any: a lane is certainly hit
-  WideCounts counts;
-
-  void* context = nullptr;
-  /// Decides these lanes (bits) of a leaf exactly, and the candidate if there is one; sets upper
-  /// and lower and clears the candidate. True stops the traversal.
-  bool (*resolve)(WideState& state, WideId leaf, std::uint32_t lanes) = nullptr;
 };
 
-using WideTraverse = void (*)(const WideTree& tree, const WideRay& ray, WideState& state);
+/// A traversal of rays of one block.
+struct WideJob {
+  const WideTree& tree;
+  const WideRays& rays;
+  WideAnswer* answers;  ///< one per ray of the block
+  void* context;
+  /// Decides these lanes (bits) of a leaf exactly, and the ray's candidate if there is one; sets
+  /// upper and lower and clears the candidate. True ends the ray.
+  bool (*resolve)(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes);
+  WideCounts counts{};
+};
+
+/// @param rays bits of those to be traced
+using WideTraverse = void (*)(WideJob& job, std::uint64_t rays);
 
 /// The traversals of one instruction set.
 struct WideKernel {
   const char* isa = "";
   /// Per mode, whether work is counted, and width 8 or 16.
   WideTraverse traverse[kWideModes][2][2] = {};
+  /// Makes float rays ready: wide_prepare-inl.h.
+  std::uint64_t (*prepare)(WideRays& rays, std::uint32_t count, float reach) = nullptr;
   int best_width = 8;  ///< what width=auto builds for it
 
   WideTraverse find(WideMode mode, bool counts, int width) const {

@@ -35,13 +35,13 @@ class LeafTest {
     std::uint32_t possible;
   };
 
-  explicit LeafTest(const WideRay& ray)
-      : org_(broadcast(ray.org)),
-        dir_(broadcast(ray.dir)),
-        slack_(hn::Set(D(), ray.org_slack)),
-        enter_(hn::Set(D(), ray.t_enter)),
-        enter_sure_(hn::Set(D(), ray.t_enter_sure)),
-        blur2_(ray.t_blur2) {}
+  LeafTest(const WideRays& rays, std::uint32_t i)
+      : org_(broadcast(rays.org, i)),
+        dir_(broadcast(rays.dir, i)),
+        slack_(hn::Set(D(), rays.org_slack[i])),
+        enter_(hn::Set(D(), rays.t_enter[i])),
+        enter_sure_(hn::Set(D(), rays.t_enter_sure[i])),
+        blur2_(rays.t_blur2[i]) {}
 
   /// Lanes part * kLanes and up that may be hit at or before `upper`.
   HWY_INLINE void test(const std::byte* leaf, std::uint32_t lanes, int part, V upper,
@@ -102,8 +102,8 @@ class LeafTest {
   }
 
  private:
-  HWY_INLINE static V3 broadcast(const float* v) {
-    return {hn::Set(D(), v[0]), hn::Set(D(), v[1]), hn::Set(D(), v[2])};
+  HWY_INLINE static V3 broadcast(const WideRays::Row* v, std::uint32_t i) {
+    return {hn::Set(D(), v[0][i]), hn::Set(D(), v[1][i]), hn::Set(D(), v[2][i])};
   }
   HWY_INLINE static V3 load(const float* row, std::uint32_t lanes) {
     return {hn::LoadU(D(), row), hn::LoadU(D(), row + lanes), hn::LoadU(D(), row + 2 * lanes)};

@@ -52,14 +52,13 @@ class NodeTest {
   using D = typename L::D;
   using V = typename L::V;
 
-  explicit NodeTest(const WideRay& ray) : enter_(hn::Set(D(), ray.t_enter)) {
-    rx_ = hn::Set(D(), ray.rcp[0]), ry_ = hn::Set(D(), ray.rcp[1]), rz_ = hn::Set(D(), ray.rcp[2]);
-    nx_ = hn::Set(D(), ray.near[0]), ny_ = hn::Set(D(), ray.near[1]);
-    nz_ = hn::Set(D(), ray.near[2]);
-    fx_ = hn::Set(D(), ray.far[0]), fy_ = hn::Set(D(), ray.far[1]), fz_ = hn::Set(D(), ray.far[2]);
+  NodeTest(const WideRays& rays, std::uint32_t i) : enter_(hn::Set(D(), rays.t_enter[i])) {
+    rx_ = set(rays.rcp[0][i]), ry_ = set(rays.rcp[1][i]), rz_ = set(rays.rcp[2][i]);
+    nx_ = set(rays.near[0][i]), ny_ = set(rays.near[1][i]), nz_ = set(rays.near[2][i]);
+    fx_ = set(rays.far[0][i]), fy_ = set(rays.far[1][i]), fz_ = set(rays.far[2][i]);
     for (int a = 0; a < 3; ++a) {
       const std::ptrdiff_t low = a * W, high = (a + 3) * W;
-      const bool down = (ray.signs >> a & 1u) != 0;
+      const bool down = (rays.signs[i] >> a & 1u) != 0;
       near_row_[a] = down ? high : low, far_row_[a] = down ? low : high;
     }
   }
@@ -86,6 +85,7 @@ class NodeTest {
   }
 
  private:
+  HWY_INLINE static V set(float v) { return hn::Set(D(), v); }
   HWY_INLINE static V plane(const float* row, V rcp, V constant) {
     return hn::MulAdd(hn::LoadU(D(), row), rcp, constant);
   }

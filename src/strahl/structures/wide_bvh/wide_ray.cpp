@@ -82,6 +82,15 @@ WideRay::WideRay(const Ray& ray, double widening, const WideFrame& frame)
   t_blur2 = t_blur > 0.0 ? above(2 * t_blur) : 0.0f;
 }
 
+void WideRay::put(WideRays& rays, std::uint32_t i) const {
+  for (std::size_t a = 0; a < 3; ++a) {
+    rays.org[a][i] = org[a], rays.dir[a][i] = dir[a];
+    rays.rcp[a][i] = rcp[a], rays.near[a][i] = near[a], rays.far[a][i] = far[a];
+  }
+  rays.org_slack[i] = org_slack, rays.t_blur2[i] = t_blur2, rays.signs[i] = signs;
+  rays.t_enter[i] = t_enter, rays.t_enter_sure[i] = t_enter_sure;
+}
+
 float WideRay::upper(double t) const {
   const double v = t * (1.0 + kHitMargin) * per_t - start + t_blur;
   return v >= 0.0 ? above(v) : -1.0f;

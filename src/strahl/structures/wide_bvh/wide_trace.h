@@ -71,13 +71,15 @@ class WideTrace {
   WideTrace& operator=(const WideTrace&) = delete;
 
   void run() {
-    WideState state;
-    state.context = this, state.resolve = &resolve;
-    take_bounds(state);
-    kernel_.find(mode(), kIsCounted, tree_.width)(tree_, wide_, state);
-    if (state.is_found) accept_any();
-    settle(state);
-    add_counts(state.counts, counters_);
+    WideRays rays;
+    WideAnswer answer;
+    wide_.put(rays, 0);
+    take_bounds(answer);
+    WideJob job{tree_, rays, &answer, this, &resolve};
+    kernel_.find(mode(), kIsCounted, tree_.width)(job, 1);
+    if (answer.is_found) accept_any();
+    settle(answer);
+    add_counts(job.counts, counters_);
   }
 
  private:
@@ -103,45 +105,45 @@ class WideTrace {
     return WideMode::each;
   }
 
-  void take_bounds(WideState& state) const {
+  void take_bounds(WideAnswer& answer) const {
     const double t = query_.t_max();
     if (t == std::numeric_limits<double>::infinity()) {
-      state.upper = state.lower = kWideMostT;
+      answer.upper = answer.lower = kWideMostT;
       return;
     }
-    state.upper = wide_.upper(t), state.lower = wide_.lower(t);
+    answer.upper = wide_.upper(t), answer.lower = wide_.lower(t);
   }
 
   void accept_any() {
     if constexpr (std::is_same_v<Q, AnyHit>) query_.found = true;
   }
 
-  static bool resolve(WideState& state, WideId leaf, std::uint32_t lanes) {
-    auto& self = *static_cast<WideTrace*>(state.context);
-    self.settle(state);
+  static bool resolve(WideJob& job, std::uint32_t, WideId leaf, std::uint32_t lanes) {
+    auto& self = *static_cast<WideTrace*>(job.context);
+    self.settle(*job.answers);
     const std::uint32_t* references = reference_row(self.tree_.at(leaf), lanes_of(leaf));
     NoCounters uncounted;  // the kernel has counted the lanes
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::uint32_t reference = references[std::countr_zero(lanes)];
       if (self.prims_.visit(reference, self.prepared(), self.query_, uncounted)) return true;
     }
-    self.take_bounds(state);
+    self.take_bounds(*job.answers);
     return false;
   }
 
   /// Offers the candidate with its canonical t.
-  void settle(WideState& state) {
-    if (state.candidate == 0) return;
-    const std::byte* leaf = tree_.at(state.candidate);
-    const std::uint32_t lanes = lanes_of(state.candidate), lane = state.candidate_lane;
-    state.candidate = 0;
+  void settle(WideAnswer& answer) {
+    if (answer.candidate == 0) return;
+    const std::byte* leaf = tree_.at(answer.candidate);
+    const std::uint32_t lanes = lanes_of(answer.candidate), lane = answer.candidate_lane;
+    answer.candidate = 0;
     const std::uint32_t reference = reference_row(leaf, lanes)[lane];
     if constexpr (kMakesHits && std::is_same_v<Q, ClosestHit>) {
       if (tree_.has_exact_corners) {
         const TriangleVertices triangle = stored_corners(leaf, lanes, lane);
         const std::optional<double> t =
             crossing_t(ray_.org, ray_.dir, triangle, triangle.a - ray_.org);
-        take(prims_.blank_hit(reference), *t + 0.0, state.candidate_is_front);
+        take(prims_.blank_hit(reference), *t + 0.0, answer.candidate_is_front);
         return;
       }
     }

@@ -37,24 +37,24 @@ class Taker {
   using D = typename L::D;
   using Values = typename LeafTest<W>::Values;
 
-  Taker(const WideTree& tree, const LeafTest<W>& leaf, WideState& state)
-      : tree_(tree), leaf_(leaf), state_(state) {}
+  HWY_INLINE Taker(WideJob& job, std::uint32_t ray, const LeafTest<W>& leaf)
+      : job_(job), ray_(ray), leaf_(leaf), answer_(job.answers[ray]) {}
 
   /// True when the traversal is over.
   HWY_INLINE bool take(WideId id, int part, const Values& values) {
     if constexpr (M == WideMode::each) {
       return resolve(id, part, values.possible);
     } else {
-      const std::uint32_t certain = leaf_.certain(values, hn::Set(D(), state_.lower));
+      const std::uint32_t certain = leaf_.certain(values, hn::Set(D(), answer_.lower));
       if constexpr (M == WideMode::closest) return take_closest(id, part, values, certain);
-      state_.is_found = certain != 0;
+      answer_.is_found = certain != 0;
       return certain != 0 || resolve(id, part, values.possible);
     }
   }
 
  private:
   HWY_INLINE bool resolve(WideId id, int part, std::uint32_t lanes) {
-    return state_.resolve(state_, id, lanes << (part * L::kLanes));
+    return job_.resolve(job_, ray_, id, lanes << (part * L::kLanes));
   }
 
   /// A lone certain lane becomes the candidate; lanes certainly behind a certain one do not matter.
@@ -69,25 +69,25 @@ class Taker {
         return resolve(id, part, possible);
     }
     const int lane = __builtin_ctz(possible);
-    state_.upper = span.upper[lane], state_.lower = span.lower[lane];
-    state_.candidate = id;
-    state_.candidate_lane = static_cast<std::uint32_t>(part * L::kLanes + lane);
-    state_.candidate_reference = references_of(id, part)[lane];
-    state_.candidate_is_front = (negative_lanes(values.det_sign) >> lane & 1u) == 0;
+    answer_.upper = span.upper[lane], answer_.lower = span.lower[lane];
+    answer_.candidate = id;
+    answer_.candidate_lane = static_cast<std::uint32_t>(part * L::kLanes + lane);
+    answer_.candidate_reference = references_of(id, part)[lane];
+    answer_.candidate_is_front = (negative_lanes(values.det_sign) >> lane & 1u) == 0;
     return false;
   }
 
   const std::uint32_t* references_of(WideId id, int part) const {
-    return reference_row(tree_.at(id), lanes_of(id)) + part * L::kLanes;
+    return reference_row(job_.tree.at(id), lanes_of(id)) + part * L::kLanes;
   }
 
   /// A primitive may be in several blocks: the candidate's is not decided again.
   HWY_INLINE bool resolve_others(WideId id, int part, std::uint32_t lanes) {
-    if (state_.candidate != 0) {
+    if (answer_.candidate != 0) {
       const std::uint32_t* references = references_of(id, part);
       for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
-        if (references[lane] == state_.candidate_reference) lanes &= ~(1u << lane);
+        if (references[lane] == answer_.candidate_reference) lanes &= ~(1u << lane);
       }
       if (lanes == 0) return false;
     }
@@ -103,7 +103,7 @@ class Taker {
   HWY_INLINE std::uint32_t behind_nearest(const Values& values,
                                           const typename LeafTest<W>::Span& span,
                                           std::uint32_t certain) const {
-    float nearest = state_.upper;
+    float nearest = answer_.upper;
     for (; certain != 0; certain &= certain - 1) {
       const float upper = span.upper[__builtin_ctz(certain)];
       nearest = upper < nearest ? upper : nearest;
@@ -111,52 +111,77 @@ class Taker {
     return bits_of(D(), LeafTest<W>::is_behind(values, hn::Set(D(), nearest)));
   }
 
-  const WideTree& tree_;
+  WideJob& job_;
+  std::uint32_t ray_;
   const LeafTest<W>& leaf_;
-  WideState& state_;
+  WideAnswer& answer_;
 };
 
+inline constexpr WideId kNoNode = 0xffffffffu;
+
+/// Walks down from `id`, and from the stack where no child is hit, to the next block. kNoNode when
+/// there is none. The ray's constants are taken anew each time: kept across the tests of blocks,
+/// which need all registers themselves, they would be on the stack.
+template <int W, bool kCounts>
+HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<W>& stack,
+                          std::size_t& waiting_out) {
+  const NodeTest<W> node_test(job.rays, ray);
+  const auto upper = hn::Set(typename WideLanes<W>::D(), job.answers[ray].upper);
+  const std::uint32_t order = job.rays.signs[ray] * (W / 8);
+  const std::byte* const base = job.tree.arena.data();
+  std::size_t waiting = waiting_out;
+  while (!is_leaf(id)) {
+    if (kCounts) ++job.counts.nodes, job.counts.boxes += W;
+    const std::byte* at = base + std::size_t{id} * kWideUnit;
+    typename NodeTest<W>::Hits hits;
+    node_test.test(at, upper, hits);
+    if (hits.bits != 0) {
+      id = stack.push(child_row(at, W), hits, order, waiting);
+      continue;
+    }
+    if (waiting == 0) return kNoNode;
+    id = stack.at(--waiting);
+  }
+  waiting_out = waiting;
+  return id;
+}
+
+/// One ray from the root to its end.
 template <int W, WideMode M, bool kCounts>
-void traverse(const WideTree& tree, const WideRay& ray, WideState& state) {
+HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stack) {
   using L = WideLanes<W>;
-  const typename L::D d;
-  const NodeTest<W> node_test(ray);
-  WideStack<W> stack;
-  const std::uint32_t order = ray.signs * (W / 8);
-  const std::byte* const base = tree.arena.data();
+  const std::byte* const base = job.tree.arena.data();
+  WideAnswer& answer = job.answers[ray];
   std::size_t waiting = 0;
-  typename L::V upper = hn::Set(d, state.upper);
-  for (WideId id = tree.root;;) {
+  WideId id = job.tree.root;
+  while ((id = descend<W, kCounts>(job, ray, id, stack, waiting)) != kNoNode) {
     const std::byte* at = base + std::size_t{unit_of(id)} * kWideUnit;
-    if (!is_leaf(id)) {
-      if (kCounts) ++state.counts.nodes, state.counts.boxes += W;
-      typename NodeTest<W>::Hits hits;
-      node_test.test(at, upper, hits);
-      if (hits.bits != 0) {
-        id = stack.push(child_row(at, W), hits, order, waiting);
-        continue;
-      }
-    } else {
-      const std::uint32_t lanes = lanes_of(id);
-      if (kCounts) ++state.counts.leaves, state.counts.lanes += lanes;
-      const LeafTest<W> leaf_test(ray);  // here, as most rays visit few leaves
-      Taker<W, M> taker(tree, leaf_test, state);
-      for (int part = 0; part < L::kParts; ++part) {
-        if (part > 0 && lanes <= static_cast<std::uint32_t>(part * L::kLanes)) break;
-        typename LeafTest<W>::Values values;
-        leaf_test.test(at, lanes, part, upper, values);
-        if (values.possible == 0) continue;
-        if (taker.take(id, part, values)) return;
-        if (M == WideMode::any) continue;
-        if (M == WideMode::each && !(state.upper < hn::GetLane(upper))) continue;
-        upper = hn::Set(d, state.upper);
-        waiting = stack.drop_behind(state.upper, waiting);
-      }
+    const std::uint32_t lanes = lanes_of(id);
+    if (kCounts) ++job.counts.leaves, job.counts.lanes += lanes;
+    const LeafTest<W> leaf_test(job.rays, ray);
+    Taker<W, M> taker(job, ray, leaf_test);
+    for (int part = 0; part < L::kParts; ++part) {
+      if (part > 0 && lanes <= static_cast<std::uint32_t>(part * L::kLanes)) break;
+      typename LeafTest<W>::Values values;
+      const float upper = answer.upper;
+      leaf_test.test(at, lanes, part, hn::Set(typename L::D(), upper), values);
+      if (values.possible == 0) continue;
+      if (taker.take(id, part, values)) return;
+      if (M == WideMode::any) continue;
+      if (answer.upper < upper) waiting = stack.drop_behind(answer.upper, waiting);
     }
     if (waiting == 0) return;
     id = stack.at(--waiting);
     if (waiting > 0) prefetch<W>(base + std::size_t{unit_of(stack.at(waiting - 1))} * kWideUnit);
   }
+}
+
+/// The rays one after the other.
+template <int W, WideMode M, bool kCounts>
+void traverse(WideJob& job, std::uint64_t rays) {
+  WideStack<W> stack;
+  for (; rays != 0; rays &= rays - 1)
+    traverse_one<W, M, kCounts>(job, static_cast<std::uint32_t>(__builtin_ctzll(rays)), stack);
 }
 
 }  // namespace HWY_NAMESPACE
