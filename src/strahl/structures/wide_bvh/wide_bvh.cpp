@@ -3,7 +3,9 @@
 #include <utility>
 #include <vector>
 
+#include <strahl/build/linked_tree.h>
 #include <strahl/build/object_tree.h>
+#include <strahl/build/optimise.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
@@ -34,6 +36,19 @@ bool has_float_corners(std::span<const PrimRef> refs, const PrimitiveSource& sou
   });
 }
 
+/// The tree with nodes moved to where they cost less.
+Tree reinserted(Tree tree, const BuildContext& context) {
+  // Nodes of both trees, and what a round needs per leaf.
+  context.require_memory(tree.nodes.size() * (sizeof(TreeNode) + sizeof(LinkedNode)) +
+                             reinsertion_bytes((tree.nodes.size() + 1) / 2),
+                         "wide_bvh");
+  LinkedTree linked = make_linked(tree);
+  ReinsertionRules rules;
+  rules.rounds = 4;  // brings most of what more would
+  reinsert_nodes(linked, rules, context);
+  return limit_depth(make_tree(linked), kWideMaxDepth, {1.0, 1.0}, context);
+}
+
 /// A binary tree down to single references.
 Tree build_binary(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& box,
                   WideQuality quality, const BuildContext& context) {
@@ -61,11 +76,14 @@ OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
              "children of a node (auto: what suits the instruction set)"),
       option("leaf_size", &WideBvhOptions::leaf_size, 0, static_cast<int>(kWideMaxLanes),
              "most primitives in a block; 0: the width"),
+      option("batch", &WideBvhOptions::batch,
+             {{"interleaved", WideBatch::interleaved}, {"single", WideBatch::single}},
+             "float rays of a batch: many under way at once, or one after the other"),
   };
 }
 
 WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : kernel_(&wide_kernel_of_environment()) {
+    : kernel_(&wide_kernel_of_environment()), batch_(options.batch) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   if (refs.empty()) return;
   const int width = width_of(options, *kernel_);
@@ -78,7 +96,8 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   rules.width = width;
   rules.max_leaf =
       static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
-  const Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
+  Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
+  if (options.quality == WideQuality::high) tree = reinserted(std::move(tree), context);
   const Collapse collapse(tree, rules, context);
   report_.sah_cost = collapse.cost();
   tree_ = lay_out_wide(tree, collapse, width, frame, all_floats && frame.is_identity(), source,

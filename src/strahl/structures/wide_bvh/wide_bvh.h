@@ -29,6 +29,7 @@ struct WideBvhOptions {
   WideQuality quality = WideQuality::balanced;
   WideWidth width = WideWidth::automatic;
   int leaf_size = 0;
+  WideBatch batch = WideBatch::interleaved;
 };
 
 OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*);
@@ -63,7 +64,7 @@ class WideBvh {
   /// @param rays must outlive it, as prims and counters
   template <class Q, class Prims, class C>
   auto float_trace(Prims& prims, const FloatRays& rays, C& counters) const {
-    return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, prims, rays, counters);
+    return WideFloatTrace<Prims, Q, C>(tree_, *kernel_, batch_, prims, rays, counters);
   }
 
   const BuildReport& report() const { return report_; }
@@ -77,6 +78,7 @@ class WideBvh {
   friend class WideBvhChecker;
   friend class WideBvhBreaker;  ///< plants faults for the tests
   const WideKernel* kernel_;
+  WideBatch batch_;
   WideTree tree_;
   BuildReport report_;
 };

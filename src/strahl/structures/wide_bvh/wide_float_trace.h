@@ -6,6 +6,7 @@
 // hits and for what the kernel cannot decide, so that a ray costs little more than its traversal.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <strahl/query/float_rays.h>
@@ -20,14 +21,20 @@ class WideFloatTrace {
   using Answer = std::conditional_t<std::is_same_v<Q, AnyHit>, std::uint8_t, Hit>;
   static constexpr std::size_t kBlock = kWideBlock;  ///< most rays at a time
 
-  WideFloatTrace(const WideTree& tree, const WideKernel& kernel, Prims& prims,
+  /// @param batch how the rays of a block are traced where the kernel leaves a choice
+  WideFloatTrace(const WideTree& tree, const WideKernel& kernel, WideBatch batch, Prims& prims,
                  const FloatRays& given, C& counters)
       : tree_(tree),
         kernel_(kernel),
         prims_(prims),
         given_(given),
         counters_(counters),
-        traverse_(kernel.find(kIsAny ? WideMode::any : WideMode::closest, kIsCounted, tree.width)) {
+        traverse_(kernel.find(kMode, kIsCounted, tree.width)) {
+    const WideTraverse fly = kernel.fly[static_cast<std::size_t>(kMode)][tree.width == 16];
+    if (kIsCounted || fly == nullptr || batch == WideBatch::single) return;
+    traverse_ = fly;
+    room_ = std::make_unique_for_overwrite<float[]>(2 * kWideBlock *
+                                                    wide_stack_room(tree.width, tree.depth));
   }
   WideFloatTrace(const WideFloatTrace&) = delete;
   WideFloatTrace& operator=(const WideFloatTrace&) = delete;
@@ -37,13 +44,13 @@ class WideFloatTrace {
   std::uint64_t run(std::size_t first, std::uint32_t count, Answer* answers) {
     first_ = first, answers_ = answers;
     take(count);
-    const std::uint64_t suited =
-        kernel_.prepare(rays_, count, static_cast<float>(tree_.frame.reach));
+    const auto reach = static_cast<float>(tree_.frame.reach);
+    const std::uint64_t suited = kernel_.prepare(rays_, count, reach);
     for (std::uint32_t i = 0; i < count; ++i) {
       found_[i] = {rays_.upper[i], rays_.lower[i]};
       answers[i] = Answer{};
     }
-    WideJob job{tree_, rays_, found_, this, &resolve};
+    WideJob job{tree_, rays_, found_, this, &resolve, {}, room_.get()};
     traverse_(job, suited);
     for (std::uint32_t i = 0; i < count; ++i) finish(i);
     add_counts(job.counts, counters_);
@@ -52,6 +59,7 @@ class WideFloatTrace {
 
  private:
   static constexpr bool kIsAny = std::is_same_v<Q, AnyHit>;
+  static constexpr WideMode kMode = kIsAny ? WideMode::any : WideMode::closest;
   static constexpr bool kIsCounted = !std::is_same_v<C, NoCounters>;
   static constexpr std::size_t kNone = ~std::size_t{0};
 
@@ -142,6 +150,7 @@ class WideFloatTrace {
   const FloatRays& given_;
   C& counters_;
   WideTraverse traverse_;
+  std::unique_ptr<float[]> room_;
   std::size_t first_ = 0;
   Answer* answers_ = nullptr;
   std::size_t prepared_index_ = kNone;

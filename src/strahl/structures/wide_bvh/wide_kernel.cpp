@@ -15,8 +15,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <strahl/structures/wide_bvh/wide_flight-inl.h>
 #include <strahl/structures/wide_bvh/wide_prepare-inl.h>
-#include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
@@ -29,6 +29,11 @@ void add_mode(WideKernel& kernel) {
   row[0][1] = &traverse<16, M, false>, row[1][1] = &traverse<16, M, true>;
 }
 
+template <WideMode M, int W>
+void add_flight(WideKernel& kernel) {
+  if constexpr (kCanFly<W>) kernel.fly[static_cast<std::size_t>(M)][W == 16] = &fly<W, M>;
+}
+
 WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
   kernel.isa = isa, kernel.prepare = &prepare;
@@ -36,6 +41,7 @@ WideKernel make_kernel(const char* isa) {
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);
   add_mode<WideMode::each>(kernel);
+  add_flight<WideMode::closest, 8>(kernel), add_flight<WideMode::any, 8>(kernel);
   return kernel;
 }
 

@@ -24,6 +24,9 @@ struct WideCounts {
   std::uint64_t nodes = 0, boxes = 0, leaves = 0, lanes = 0;
 };
 
+/// How the rays of a block are traced, where the instruction set leaves a choice.
+enum class WideBatch { interleaved, single };
+
 /// What is known of one ray's hits; shared by kernel and resolve.
 struct WideAnswer {
   float upper;           ///< lanes certainly behind it are not wanted
@@ -45,9 +48,10 @@ struct WideJob {
   /// upper and lower and clears the candidate. True ends the ray.
   bool (*resolve)(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes);
   WideCounts counts{};
+  float* room = nullptr;  ///< for flights: kWideBlock stacks, two times wide_stack_room() each
 };
 
-/// @param rays bits of those to be traced
+/// @param rays bits of those of the block to be traced
 using WideTraverse = void (*)(WideJob& job, std::uint64_t rays);
 
 /// The traversals of one instruction set.
@@ -57,6 +61,8 @@ struct WideKernel {
   WideTraverse traverse[kWideModes][2][2] = {};
   /// Makes float rays ready: wide_prepare-inl.h.
   std::uint64_t (*prepare)(WideRays& rays, std::uint32_t count, float reach) = nullptr;
+  /// All rays at once, for closest and any without counts; null where that does not pay.
+  WideTraverse fly[2][2] = {};
   int best_width = 8;  ///< what width=auto builds for it
 
   WideTraverse find(WideMode mode, bool counts, int width) const {

@@ -214,6 +214,7 @@ WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, con
   WideTree out;
   out.width = width, out.frame = frame, out.has_exact_corners = has_exact_corners;
   Layout(tree, collapse, out, source, context, report).run();
+  out.depth = report.depth;
   return out;
 }
 

@@ -14,6 +14,8 @@
 #define STRAHL_WIDE_NODE_INL_H_
 #endif
 
+#include <type_traits>
+
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
@@ -36,8 +38,13 @@ struct WideLanes {
   static constexpr int kParts = W / kLanes;
 };
 
+/// As an integer; Highway's own way goes through memory.
 template <class D, class M>
 HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+#if HWY_TARGET == HWY_AVX2
+  if constexpr (hn::MaxLanes(D()) == 8 && std::is_same_v<hn::TFromD<D>, float>)
+    return static_cast<std::uint32_t>(_mm256_movemask_ps(hn::VecFromMask(d, mask).raw));
+#endif
   std::uint8_t bytes[8];  // StoreMaskBits may write eight
   hn::StoreMaskBits(d, mask, bytes);
   if (hn::MaxLanes(d) <= 8) return bytes[0];
@@ -56,11 +63,7 @@ class NodeTest {
     rx_ = set(rays.rcp[0][i]), ry_ = set(rays.rcp[1][i]), rz_ = set(rays.rcp[2][i]);
     nx_ = set(rays.near[0][i]), ny_ = set(rays.near[1][i]), nz_ = set(rays.near[2][i]);
     fx_ = set(rays.far[0][i]), fy_ = set(rays.far[1][i]), fz_ = set(rays.far[2][i]);
-    for (int a = 0; a < 3; ++a) {
-      const std::ptrdiff_t low = a * W, high = (a + 3) * W;
-      const bool down = (rays.signs[i] >> a & 1u) != 0;
-      near_row_[a] = down ? high : low, far_row_[a] = down ? low : high;
-    }
+    rows_ = &kRows.of[rays.signs[i] & 7u];
   }
 
   /// Which children may be hit at or before `upper`, and where the ray enters them.
@@ -74,10 +77,11 @@ class NodeTest {
     hits.bits = 0;
     for (int part = 0; part < L::kParts; ++part) {
       const float* at = planes + part * L::kLanes;
-      const V t0 = largest(plane(at + near_row_[0], rx_, nx_), plane(at + near_row_[1], ry_, ny_));
-      const V t1 = largest(plane(at + near_row_[2], rz_, nz_), enter_);
-      const V u0 = least(plane(at + far_row_[0], rx_, fx_), plane(at + far_row_[1], ry_, fy_));
-      const V u1 = least(plane(at + far_row_[2], rz_, fz_), upper);
+      const Rows& r = *rows_;
+      const V t0 = largest(plane(at + r.near[0], rx_, nx_), plane(at + r.near[1], ry_, ny_));
+      const V t1 = largest(plane(at + r.near[2], rz_, nz_), enter_);
+      const V u0 = least(plane(at + r.far[0], rx_, fx_), plane(at + r.far[1], ry_, fy_));
+      const V u1 = least(plane(at + r.far[2], rz_, fz_), upper);
       const V first = largest(t0, t1), last = least(u0, u1);
       hits.enter[part] = first;
       hits.bits |= bits_of(D(), hn::Le(first, last)) << (part * L::kLanes);
@@ -85,6 +89,22 @@ class NodeTest {
   }
 
  private:
+  /// Where a ray's near and far planes lie in a node, by its signs.
+  struct Rows {
+    std::ptrdiff_t near[3], far[3];
+  };
+  struct RowsTable {
+    Rows of[8];
+    constexpr RowsTable() : of() {
+      for (int signs = 0; signs < 8; ++signs)
+        for (int a = 0; a < 3; ++a) {
+          const bool down = (signs >> a & 1) != 0;
+          of[signs].near[a] = (down ? a + 3 : a) * W, of[signs].far[a] = (down ? a : a + 3) * W;
+        }
+    }
+  };
+  static constexpr RowsTable kRows{};
+
   HWY_INLINE static V set(float v) { return hn::Set(D(), v); }
   HWY_INLINE static V plane(const float* row, V rcp, V constant) {
     return hn::MulAdd(hn::LoadU(D(), row), rcp, constant);
@@ -99,7 +119,7 @@ class NodeTest {
   }
 
   V rx_, ry_, rz_, nx_, ny_, nz_, fx_, fy_, fz_, enter_;
-  std::ptrdiff_t near_row_[3], far_row_[3];
+  const Rows* rows_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// structures/wide_bvh/wide_prepare-inl.h - a block of float rays made ready by vectors, for a tree
+// structures/wide_bvh/wide_prepare-inl.h - float rays made ready by vectors, for a tree
 // that keeps the scene's coordinates.
 //
 // The bounds are those of wide_ray.h with these differences. Directions are multiplied by a power
@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
-/// As many rays as a register has lanes, from ray `first` of the block.
+/// As many rays as a register has lanes, from ray `first` on.
 class Preparation {
  public:
   using L = WideLanes<16>;

@@ -23,7 +23,7 @@ struct WideRays {
   Row t_blur2;       ///< twice the error of the frame's t that is not relative, rounded up
   Row upper, lower;  ///< of the answers when the traversal begins
   Row per_t;         ///< the frame's t of a t of 1, a power of two
-  alignas(64) std::uint32_t signs[kWideBlock];  ///< bit a: dir[a] < 0
+  std::uint32_t signs[kWideBlock];  ///< bit a: dir[a] < 0
 };
 
 }  // namespace strahl

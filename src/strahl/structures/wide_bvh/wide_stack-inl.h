@@ -13,6 +13,7 @@
 #define STRAHL_WIDE_STACK_INL_H_
 #endif
 
+#include <algorithm>
 #include <limits>
 
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
@@ -30,7 +31,30 @@ class WideStack {
   using DU = hn::RebindToUnsigned<D>;
   using V = typename L::V;
 
+  /// @param enter,ids room for wide_stack_room() each
+  HWY_INLINE WideStack(float* enter, WideId* ids) : enter_(enter), ids_(ids) {}
+
   HWY_INLINE WideId at(std::size_t i) const { return ids_[i]; }
+  /// The stack whose bottom is this one's entry i.
+  HWY_INLINE WideStack from(std::size_t i) const { return WideStack(enter_ + i, ids_ + i); }
+  HWY_INLINE void put(std::size_t i, float enter, WideId id) { enter_[i] = enter, ids_[i] = id; }
+
+  /// Pushes all children hit but the nearest and returns it; where none is hit, pops. Without a
+  /// branch, for nodes of one register.
+  HWY_INLINE WideId exchange(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                             std::uint32_t order, std::size_t& count) {
+    const std::uint64_t& slots = wide_slots(hits.bits, order);
+    const auto index = lanes_from(slots);
+    // Of ids_[count - 1] and children[slots >> 56], without letting the compiler see a choice.
+    const std::uintptr_t waits = reinterpret_cast<std::uintptr_t>(ids_ + count - 1);
+    const std::uintptr_t child = reinterpret_cast<std::uintptr_t>(children + (slots >> 56));
+    const std::uintptr_t is_hit = -static_cast<std::uintptr_t>(hits.bits != 0);
+    const WideId id = *reinterpret_cast<const WideId*>(waits ^ ((waits ^ child) & is_hit));
+    hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
+    hn::StoreU(permuted(hn::LoadU(DU(), children), index), DU(), ids_ + count);
+    count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
+    return id;
+  }
 
   /// Pushes all children hit but the nearest, which is returned. At least one must be hit.
   /// @param order the ray's signs, for 16 slots times 2
@@ -45,12 +69,12 @@ class WideStack {
   /// Drops what is entered behind `upper`. Returns how many are left of `count`.
   HWY_INLINE std::size_t drop_behind(float upper, std::size_t count) {
     const V limit = hn::Set(D(), upper);
-    hn::StoreU(hn::Set(D(), kBehindAll), D(), enter_ + count);
     std::size_t left = 0;
     for (std::size_t i = 0; i < count; i += static_cast<std::size_t>(L::kLanes)) {
       const V enter = hn::LoadU(D(), enter_ + i);
       const auto ids = hn::LoadU(DU(), ids_ + i);
-      const std::uint32_t keep = bits_of(D(), hn::Le(enter, limit));
+      const auto here = std::min(count - i, static_cast<std::size_t>(L::kLanes));
+      const std::uint32_t keep = bits_of(D(), hn::Le(enter, limit)) & ((1u << here) - 1);
       // Lanes beyond those kept are written into what has been read already.
       if constexpr (W == 8 && L::kParts == 1) {
         const auto index = lanes_from(wide_slots(keep, kAscending));
@@ -106,11 +130,15 @@ class WideStack {
     return children[first];
   }
 
-  static constexpr float kBehindAll = std::numeric_limits<float>::infinity();
-  static constexpr std::size_t kRoom = std::size_t{kWideMaxDepth} * (W - 1) + 2 * W;
+  float* enter_;
+  WideId* ids_;
+};
 
-  float enter_[kRoom];
-  WideId ids_[kRoom];
+/// Room for the deepest tree.
+template <int W>
+struct StackRoom {
+  float enter[wide_stack_room(W, kWideMaxDepth)];
+  WideId ids[wide_stack_room(W, kWideMaxDepth)];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -179,7 +179,8 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
 /// The rays one after the other.
 template <int W, WideMode M, bool kCounts>
 void traverse(WideJob& job, std::uint64_t rays) {
-  WideStack<W> stack;
+  StackRoom<W> room;
+  WideStack<W> stack(room.enter, room.ids);
   for (; rays != 0; rays &= rays - 1)
     traverse_one<W, M, kCounts>(job, static_cast<std::uint32_t>(__builtin_ctzll(rays)), stack);
 }

@@ -39,7 +39,8 @@ inline constexpr int kWideMaxDepth = 64;        ///< inner nodes on a path
 inline constexpr std::size_t kWideSlack = 128;  ///< bytes that may be read beyond the last block
 
 constexpr bool is_leaf(WideId id) { return (id & kWideLeaf) != 0; }
-constexpr std::uint32_t unit_of(WideId id) { return is_leaf(id) ? (id & ~kWideLeaf) >> 4 : id; }
+/// Without a branch.
+constexpr std::uint32_t unit_of(WideId id) { return (id & ~kWideLeaf) >> (id >> 31 << 2); }
 constexpr std::uint32_t lanes_of(WideId leaf) { return (leaf & 15u) + 1; }
 
 /// Error bounds of the hit filter for one block; see wide_filter.h.
@@ -88,11 +89,19 @@ class WideArena {
   std::uint64_t size_ = 0;
 };
 
+/// Entries of a stack that holds all that waits on a path of `depth` inner nodes: a bottom, all
+/// children but one per node, and full vectors behind.
+constexpr std::size_t wide_stack_room(int width, std::size_t depth) {
+  const auto w = static_cast<std::size_t>(width);
+  return (2 + depth * (w - 1) + 2 * w + 7) / 8 * 8;
+}
+
 /// All that a kernel needs of a tree. Empty when the arena is.
 struct WideTree {
   WideArena arena;
   WideId root = 0;
   int width = 8;
+  std::size_t depth = 0;  ///< most inner nodes on a path
   bool has_exact_corners = false;
   WideFrame frame;
 

@@ -1,0 +1,141 @@
+// structures/wide_bvh/wide_flight-inl.h - all rays of a block under way at once.
+//
+// A single ray waits: each step needs the node that the last one found, and every second step
+//   guesses a branch wrongly. Here each ray takes one step in turn, without a branch, so the steps
+//   of many overlap; what a step needs next is asked for a whole round before. Rays at a node and
+//   rays at a block are kept in two lists, written without branches, too: both are written always,
+//   but only one becomes longer.
+// Each ray sees nodes and blocks in its own order, so its answer is that of traverse_one().
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_FLIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_FLIGHT_INL_H_
+#undef STRAHL_WIDE_FLIGHT_INL_H_
+#else
+#define STRAHL_WIDE_FLIGHT_INL_H_
+#endif
+
+#include <strahl/structures/wide_bvh/wide_traverse-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+/// Whether nodes of W children fill one register, which the flight's steps need.
+template <int W>
+inline constexpr bool kCanFly = W == 8 && WideLanes<W>::kParts == 1;
+
+template <int W, WideMode M>
+class Flight {
+ public:
+  explicit Flight(WideJob& job)
+      : job_(job),
+        base_(job.tree.arena.data()),
+        room_(wide_stack_room(W, job.tree.depth)),
+        stacks_(job.room, reinterpret_cast<WideId*>(job.room + kWideBlock * room_)) {}
+
+  void run(std::uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1) start(static_cast<std::uint32_t>(__builtin_ctzll(rays)));
+    while (at_nodes_ + at_leaves_ > 0) {
+      while (at_nodes_ > 0 && at_leaves_ < kManyLeaves) visit_nodes();
+      visit_leaves();
+    }
+  }
+
+ private:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  /// No block of a tree whose root is a node, so below all that waits; its address can be asked for.
+  static constexpr WideId kBottom = kWideLeaf;
+  static constexpr std::uint32_t kManyLeaves = 24;  ///< rays at blocks that are worth a round
+
+  /// A ray and where it is.
+  struct Place {
+    std::uint32_t ray;
+    WideId id;
+  };
+  /// Lengths of the lists while they are written, in registers.
+  struct Lists {
+    std::uint32_t nodes, leaves;
+  };
+
+  void start(std::uint32_t ray) {
+    stacks_.put(ray * room_, -std::numeric_limits<float>::infinity(), kBottom);
+    top_[ray] = ray * room_ + 1, upper_[ray] = job_.answers[ray].upper;
+    nodes_[at_nodes_++] = {ray, job_.tree.root};
+  }
+
+  /// Into the list it belongs to; into none when it is at its end.
+  HWY_INLINE void go_to(std::uint32_t ray, WideId id, const std::byte* base, Lists& n) {
+    nodes_[n.nodes] = leaves_[n.leaves] = {ray, id};
+    n.nodes += 1 - (id >> 31), n.leaves += id > kBottom;
+    prefetch<W>(base + std::size_t{unit_of(id)} * kWideUnit);
+  }
+
+  void visit_nodes() {
+    const WideRays& rays = job_.rays;
+    const std::byte* const base = base_;
+    WideStack<W> stacks = stacks_;
+    const std::uint32_t count = at_nodes_;
+    Lists n{0, at_leaves_};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto [ray, id] = nodes_[i];
+      const std::byte* at = base + std::size_t{id} * kWideUnit;
+      typename NodeTest<W>::Hits hits;
+      NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper_[ray]), hits);
+      std::size_t top = top_[ray];
+      const WideId next = stacks.exchange(child_row(at, W), hits, rays.signs[ray], top);
+      top_[ray] = top;
+      go_to(ray, next, base, n);
+    }
+    at_nodes_ = n.nodes, at_leaves_ = n.leaves;
+  }
+
+  void visit_leaves() {
+    const std::uint32_t count = at_leaves_;
+    Lists n{at_nodes_, 0};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const auto [ray, id] = leaves_[i];
+      const std::byte* at = base_ + std::size_t{unit_of(id)} * kWideUnit;
+      const LeafTest<W> leaf_test(job_.rays, ray);
+      typename LeafTest<W>::Values values;
+      leaf_test.test(at, lanes_of(id), 0, hn::Set(D(), upper_[ray]), values);
+      if (values.possible != 0) {
+        if (Taker<W, M>(job_, ray, leaf_test).take(id, 0, values)) continue;
+        if (M != WideMode::any) narrow(ray);
+      }
+      go_to(ray, stacks_.at(--top_[ray]), base_, n);
+    }
+    at_nodes_ = n.nodes, at_leaves_ = n.leaves;
+  }
+
+  /// Follows the answer's upper bound.
+  HWY_INLINE void narrow(std::uint32_t ray) {
+    const float upper = job_.answers[ray].upper;
+    if (!(upper < upper_[ray])) return;
+    upper_[ray] = upper;
+    const std::size_t bottom = ray * room_;
+    top_[ray] = bottom + stacks_.from(bottom).drop_behind(upper, top_[ray] - bottom);
+  }
+
+  WideJob& job_;
+  const std::byte* base_;
+  std::size_t room_;
+  WideStack<W> stacks_;  ///< of all rays, one behind the other
+  std::uint32_t at_nodes_ = 0, at_leaves_ = 0;
+  // One more: what does not count is written, too.
+  Place nodes_[kWideBlock + 1], leaves_[kWideBlock + 1];
+  float upper_[kWideBlock];
+  std::size_t top_[kWideBlock];  ///< behind what waits
+};
+
+template <int W, WideMode M>
+void fly(WideJob& job, std::uint64_t rays) {
+  if (is_leaf(job.tree.root)) return traverse<W, M, false>(job, rays);
+  Flight<W, M>(job).run(rays);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
