@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <strahl/base/error.h>
+#include <strahl/base/rng.h>
 #include <strahl/io/load.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 
@@ -76,6 +77,7 @@ struct FloatRays {
   };
   std::vector<Record> records;
 
+  FloatRays() = default;
   explicit FloatRays(const RaySet& set) {
     for (std::size_t i = 0; i < set.rays.size(); ++i) {
       Ray ray = set.rays[i];
@@ -87,6 +89,27 @@ struct FloatRays {
                          static_cast<float>(ray.t_max)});
     }
   }
+  /// Blocks of 64 rays close to each of a set: from the same place, in the same direction, or neither.
+  static FloatRays bundles(const RaySet& set, std::uint64_t seed) {
+    const FloatRays all(set);
+    FloatRays out;
+    Rng rng(seed);
+    for (std::size_t i = 0; i < all.records.size() / 64; ++i) {
+      const double spread = std::ldexp(1.0, -static_cast<int>(rng.below(14)));
+      const auto near = [&](const Vec3f& v, bool moves) {
+        if (!moves) return v;
+        const double size = spread * norm_max(Vec3d(v));
+        return Vec3f(Vec3d(v) + Vec3d{rng.uniform(-size, size), rng.uniform(-size, size),
+                                      rng.uniform(-size, size)});
+      };
+      const Record& base = all.records[i];
+      for (int k = 0; k < 64; ++k)
+        out.records.push_back({near(base.org, i % 3 != 0), base.t_min, near(base.dir, i % 3 != 1),
+                               k % 16 == 5 ? base.t_max / 2 : base.t_max});
+    }
+    return out;
+  }
+
   RayBatch batch() const {
     const auto* base = reinterpret_cast<const std::byte*>(records.data());
     constexpr std::size_t kStride = sizeof(Record);
@@ -99,24 +122,42 @@ struct FloatRays {
   }
 };
 
+void expect_like_bvh(const std::shared_ptr<const Scene>& scene, const FloatRays& rays,
+                     std::initializer_list<const char*> specs) {
+  const std::size_t n = rays.records.size();
+  std::vector<Hit> expected(n), got(n);
+  std::vector<std::uint8_t> any(n);
+  const BatchReport report = build(scene, "bvh")->closest_hit(rays.batch(), expected);
+  for (const char* spec : specs) {
+    const auto wide = build(scene, spec);
+    EXPECT_EQ(wide->closest_hit(rays.batch(), got).invalid_rays, report.invalid_rays);
+    wide->any_hit(rays.batch(), any);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_TRUE(have_same_bits(got[i], expected[i])) << spec << " ray " << i;
+      ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << spec << " ray " << i;
+    }
+  }
+}
+
 TEST_P(WideKernels, AnswerFloatRaysLikeBvh) {
   const ForcedIsa forced(GetParam().c_str());
   for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
-    const FloatRays rays(adversarial_rays(*scene, kManyRays, 78));
-    const std::size_t n = rays.records.size();
-    std::vector<Hit> expected(n), got(n);
-    std::vector<std::uint8_t> any(n);
-    const BatchReport report = build(scene, "bvh")->closest_hit(rays.batch(), expected);
-    for (const char* spec : {"wide_bvh:width=8", "wide_bvh:width=16", "wide_bvh:quality=high"}) {
-      const auto wide = build(scene, spec);
-      EXPECT_EQ(wide->closest_hit(rays.batch(), got).invalid_rays, report.invalid_rays);
-      wide->any_hit(rays.batch(), any);
-      for (std::size_t i = 0; i < n; ++i) {
-        ASSERT_TRUE(have_same_bits(got[i], expected[i])) << name << ' ' << spec << " ray " << i;
-        ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << name << ' ' << spec << " ray " << i;
-      }
-    }
+    SCOPED_TRACE(name);
+    expect_like_bvh(scene, FloatRays(adversarial_rays(*scene, kManyRays, 78)),
+                    {"wide_bvh:width=8", "wide_bvh:width=8,batch=single", "wide_bvh:width=16",
+                     "wide_bvh:quality=high"});
+  }
+}
+
+/// Rays that run close together begin below the root.
+TEST_P(WideKernels, AnswerBundlesOfFloatRaysLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    SCOPED_TRACE(name);
+    expect_like_bvh(scene, FloatRays::bundles(adversarial_rays(*scene, kManyRays, 79), 80),
+                    {"wide_bvh:width=8", "wide_bvh:width=8,batch=single"});
   }
 }
 

@@ -14,6 +14,7 @@
 #define STRAHL_WIDE_FLIGHT_INL_H_
 #endif
 
+#include <strahl/structures/wide_bvh/wide_entry-inl.h>
 #include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -34,7 +35,10 @@ class Flight {
         stacks_(job.room, reinterpret_cast<WideId*>(job.room + kWideBlock * room_)) {}
 
   void run(std::uint64_t rays) {
-    for (; rays != 0; rays &= rays - 1) start(static_cast<std::uint32_t>(__builtin_ctzll(rays)));
+    if (rays == 0) return;
+    const WideEntry entry = find_entry<W>(job_.tree, job_.rays, rays);
+    if (entry.count == 0) return;
+    for (; rays != 0; rays &= rays - 1) start(static_cast<std::uint32_t>(__builtin_ctzll(rays)), entry);
     while (at_nodes_ + at_leaves_ > 0) {
       while (at_nodes_ > 0 && at_leaves_ < kManyLeaves) visit_nodes();
       visit_leaves();
@@ -58,10 +62,17 @@ class Flight {
     std::uint32_t nodes, leaves;
   };
 
-  void start(std::uint32_t ray) {
-    stacks_.put(ray * room_, -std::numeric_limits<float>::infinity(), kBottom);
-    top_[ray] = ray * room_ + 1, upper_[ray] = job_.answers[ray].upper;
-    nodes_[at_nodes_++] = {ray, job_.tree.root};
+  HWY_INLINE void start(std::uint32_t ray, const WideEntry& entry) {
+    std::size_t top = ray * room_;
+    stacks_.put(top++, -std::numeric_limits<float>::infinity(), kBottom);
+    for (std::size_t i = 0; i < entry.count - 1; ++i)
+      stacks_.put(top++, entry.enter[i], entry.ids[i]);
+    top_[ray] = top, upper_[ray] = job_.answers[ray].upper;
+    const WideId first = entry.ids[entry.count - 1];
+    if (is_leaf(first))
+      leaves_[at_leaves_++] = {ray, first};
+    else
+      nodes_[at_nodes_++] = {ray, first};
   }
 
   /// Into the list it belongs to; into none when it is at its end.

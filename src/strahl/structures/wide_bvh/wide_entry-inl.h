@@ -1,0 +1,159 @@
+// structures/wide_bvh/wide_entry-inl.h - where the rays of a block may begin: below the root, when
+// they run so close together that only few nodes can be met by any of them.
+//
+// Source: entry points of beams [Reshetov2005]; here a beam is bounds of the rays' constants.
+// Bounds: for a plane p of axis a, m the middle of the origins and r = 1 / d, ray i meets it at
+//     p r_i - o_i r_i = (p - m) r_i + (m - o_i) r_i,
+//   of which the first part lies between its values for the least and the largest r and the second
+//   between the least m r_i + near_i and the largest m r_i + far_i. near and far bound the true
+//   parameters already (wide_ray.h). What is rounded here, u = 2^-24, P = reach, O >= |o_i|, |m|,
+//   R >= |r_i|: p - m, u (P + O) R; m r_i + near_i, 2.1 u O R; the last sum, u (P + 3.2 O) R; so
+//   widening by u (3 P + 8.5 O) R, which covers its own rounding, keeps entries lower and exits
+//   upper bounds for all rays: a child that no ray of the block hits here is hit by none of them.
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_ENTRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_ENTRY_INL_H_
+#undef STRAHL_WIDE_ENTRY_INL_H_
+#else
+#define STRAHL_WIDE_ENTRY_INL_H_
+#endif
+
+#include <strahl/structures/wide_bvh/wide_stack-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+/// Nodes and blocks that all rays visit instead of the root, farthest first. None: all miss.
+struct WideEntry {
+  static constexpr std::size_t kMost = 2;
+  std::size_t count = 1;
+  float enter[kMost] = {};
+  WideId ids[kMost] = {};
+};
+
+/// All rays of a block as one. Nodes of one register.
+template <int W>
+class Beam {
+ public:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  using V = typename L::V;
+
+  /// @param rays bits of those of the block, more than none
+  Beam(const WideRays& rays, std::uint64_t which, float reach) : signs_(rays.signs[first_of(which)]) {
+    // Only whole blocks: then no lane has to be left out.
+    is_narrow_ = which == ~std::uint64_t{0} && have_one_octant(rays);
+    if (!is_narrow_) return;
+    for (int a = 0; a < 3; ++a) bound(rays, a, reach);
+    enter_ = hn::Set(D(), least(rays.t_enter)), upper_ = hn::Set(D(), largest(rays.upper));
+  }
+
+  bool is_narrow() const { return is_narrow_; }
+
+  /// Bits of the children that a ray may hit, and where the first of them enters.
+  HWY_INLINE void test(const std::byte* node, typename NodeTest<W>::Hits& hits) const {
+    V first = enter_, last = upper_;
+    for (int a = 0; a < 3; ++a) {
+      const bool down = (signs_ >> a & 1u) != 0;
+      const V near = hn::Sub(load(node, down ? a + 3 : a), middle_[a]);
+      const V far = hn::Sub(load(node, down ? a : a + 3), middle_[a]);
+      first = hn::Max(first, hn::Min(hn::MulAdd(near, least_rcp_[a], near_[a]),
+                                     hn::MulAdd(near, most_rcp_[a], near_[a])));
+      last = hn::Min(last, hn::Max(hn::MulAdd(far, least_rcp_[a], far_[a]),
+                                   hn::MulAdd(far, most_rcp_[a], far_[a])));
+    }
+    hits.enter[0] = first;
+    hits.bits = bits_of(D(), hn::Le(first, last));
+  }
+
+  std::uint32_t signs() const { return signs_; }
+
+ private:
+  static std::uint32_t first_of(std::uint64_t which) {
+    return static_cast<std::uint32_t>(__builtin_ctzll(which));
+  }
+  HWY_INLINE static V load(const std::byte* node, int row) {
+    return hn::LoadU(D(), plane_row(node, W, row));
+  }
+
+  HWY_INLINE bool have_one_octant(const WideRays& rays) const {
+    const hn::RebindToUnsigned<D> du;
+    auto differ = hn::Zero(du);
+    const auto own = hn::Set(du, signs_);
+    for (std::uint32_t i = 0; i < kWideBlock; i += hn::MaxLanes(du))
+      differ = hn::Or(differ, hn::Xor(own, hn::Load(du, rays.signs + i)));
+    return hn::AllTrue(du, hn::Eq(differ, hn::Zero(du)));
+  }
+
+  HWY_INLINE static float least(const float* row) {
+    V v = hn::Load(D(), row);
+    for (std::uint32_t i = hn::MaxLanes(D()); i < kWideBlock; i += hn::MaxLanes(D()))
+      v = hn::Min(v, hn::Load(D(), row + i));
+    return hn::GetLane(hn::MinOfLanes(D(), v));
+  }
+  HWY_INLINE static float largest(const float* row) {
+    V v = hn::Load(D(), row);
+    for (std::uint32_t i = hn::MaxLanes(D()); i < kWideBlock; i += hn::MaxLanes(D()))
+      v = hn::Max(v, hn::Load(D(), row + i));
+    return hn::GetLane(hn::MaxOfLanes(D(), v));
+  }
+
+  HWY_INLINE void bound(const WideRays& rays, int a, float reach) {
+    const float least_org = least(rays.org[a]), most_org = largest(rays.org[a]);
+    const float middle = 0.5f * (least_org + most_org);
+    const float farthest = std::max(std::abs(least_org), std::abs(most_org));
+    const V m = hn::Set(D(), middle);
+    V first = hn::Set(D(), std::numeric_limits<float>::max()), last = hn::Neg(first);
+    for (std::uint32_t i = 0; i < kWideBlock; i += hn::MaxLanes(D())) {
+      const V r = hn::Load(D(), rays.rcp[a] + i);
+      first = hn::Min(first, hn::MulAdd(m, r, hn::Load(D(), rays.near[a] + i)));
+      last = hn::Max(last, hn::MulAdd(m, r, hn::Load(D(), rays.far[a] + i)));
+    }
+    const float low = least(rays.rcp[a]), high = largest(rays.rcp[a]);
+    const float size = std::max(std::abs(low), std::abs(high));
+    const float wider = 0x1p-24f * (3.0f * reach + 8.5f * farthest) * size;
+    near_[a] = hn::Set(D(), hn::GetLane(hn::MinOfLanes(D(), first)) - wider);
+    far_[a] = hn::Set(D(), hn::GetLane(hn::MaxOfLanes(D(), last)) + wider);
+    least_rcp_[a] = hn::Set(D(), low), most_rcp_[a] = hn::Set(D(), high), middle_[a] = m;
+  }
+
+  std::uint32_t signs_;
+  bool is_narrow_;
+  V least_rcp_[3], most_rcp_[3], middle_[3], near_[3], far_[3], enter_, upper_;
+};
+
+/// Goes down from the root as long as few children may be hit.
+template <int W>
+WideEntry find_entry(const WideTree& tree, const WideRays& rays, std::uint64_t which) {
+  WideEntry entry;
+  entry.ids[0] = tree.root;
+  const Beam<W> beam(rays, which, static_cast<float>(tree.frame.reach));
+  if (!beam.is_narrow()) return entry;
+  while (entry.count > 0) {
+    // The nearest is divided first; the other waits until it is the only one.
+    const WideId id = entry.ids[entry.count - 1];
+    if (is_leaf(id)) return entry;
+    typename NodeTest<W>::Hits hits;
+    const std::byte* node = tree.at(id);
+    beam.test(node, hits);
+    const auto found = static_cast<std::size_t>(__builtin_popcount(hits.bits));
+    if (entry.count - 1 + found > WideEntry::kMost) return entry;
+    alignas(64) float enter[W];
+    hn::Store(hits.enter[0], typename WideLanes<W>::D(), enter);
+    const std::uint64_t slots = wide_slots(hits.bits, beam.signs());
+    --entry.count;
+    for (std::size_t i = 0; i < found; ++i, ++entry.count) {
+      const std::size_t slot = slots >> (8 * i) & 7u;
+      entry.enter[entry.count] = enter[slot];
+      entry.ids[entry.count] = child_row(node, W)[slot];
+    }
+  }
+  return entry;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
