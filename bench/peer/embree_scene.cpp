@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <bench/peer/embree_scene.h>
 #include <cstring>
+#include <vector>
 
 #include <immintrin.h>
 
@@ -28,6 +30,39 @@ void write_ray(const FloatRay& from, RTCRay& to) {
   _mm_store_ps(&to.org_x, first);
   _mm_store_ps(&to.dir_x, dir);
   _mm_store_ps(&to.tfar, _mm_castsi128_ps(_mm_set_epi32(0, 0, -1, _mm_extract_ps(second, 3))));
+}
+
+/// Four records of four floats each become rows.
+void write_rows(const float* const from[4], float* x, float* y, float* z, float* w) {
+  __m128 a = _mm_loadu_ps(from[0]), b = _mm_loadu_ps(from[1]);
+  __m128 c = _mm_loadu_ps(from[2]), d = _mm_loadu_ps(from[3]);
+  _MM_TRANSPOSE4_PS(a, b, c, d);
+  _mm_store_ps(x, a), _mm_store_ps(y, b), _mm_store_ps(z, c), _mm_store_ps(w, d);
+}
+
+/// Up to eight rays; `valid` is -1 for those there are.
+void write_packet(std::span<const FloatRay> rays, RTCRay8& to, int* valid) {
+  for (std::size_t half = 0; half < 8; half += 4) {
+    const float* from[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t ray = std::min(half + i, rays.size() - 1);
+      from[i] = reinterpret_cast<const float*>(&rays[ray]);
+      valid[half + i] = half + i < rays.size() ? -1 : 0;
+    }
+    write_rows(from, to.org_x + half, to.org_y + half, to.org_z + half, to.tnear + half);
+    for (const float*& f : from) f += 4;
+    write_rows(from, to.dir_x + half, to.dir_y + half, to.dir_z + half, to.tfar + half);
+  }
+  std::memset(to.time, 0, sizeof to.time), std::memset(to.flags, 0, sizeof to.flags);
+  std::memset(to.mask, 0xff, sizeof to.mask);
+}
+
+RTCIntersectContext context_of(PeerApi api) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (api == PeerApi::coherent_packet || api == PeerApi::coherent_stream)
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
 }
 
 void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
@@ -62,10 +97,13 @@ EmbreeScene::EmbreeScene(const Scene& scene)
   build_seconds_ = timer.seconds();
 }
 
-void EmbreeScene::closest(std::span<const FloatRay> rays, std::span<Result> results) const {
+void EmbreeScene::closest(PeerApi api, std::span<const FloatRay> rays,
+                          std::span<Result> results) const {
   const FlushGuard flush;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RTCIntersectContext context = context_of(api);
+  if (api == PeerApi::packet || api == PeerApi::coherent_packet)
+    return closest_packets(context, rays, results);
+  if (api != PeerApi::single) return closest_streams(context, rays, results);
   RTCRayHit r{};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     write_ray(rays[i], r.ray);
@@ -76,16 +114,83 @@ void EmbreeScene::closest(std::span<const FloatRay> rays, std::span<Result> resu
   }
 }
 
-void EmbreeScene::any(std::span<const FloatRay> rays, std::span<std::uint8_t> occluded) const {
+void EmbreeScene::closest_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                                  std::span<Result> results) const {
+  alignas(32) int valid[8];
+  RTCRayHit8 r{};
+  for (std::size_t i = 0; i < rays.size(); i += 8) {
+    const std::size_t count = std::min<std::size_t>(8, rays.size() - i);
+    write_packet(rays.subspan(i, count), r.ray, valid);
+    std::memset(r.hit.geomID, 0xff, sizeof r.hit.geomID);
+    std::memset(r.hit.primID, 0xff, sizeof r.hit.primID);
+    rtcIntersect8(valid, scene_.get(), &context, &r);
+    for (std::size_t k = 0; k < count; ++k)
+      results[i + k] = {r.ray.tfar[k], r.hit.primID[k], r.hit.u[k], r.hit.v[k]};
+  }
+}
+
+void EmbreeScene::closest_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                                  std::span<Result> results) const {
+  std::vector<RTCRayHit> r(kStream);
+  for (std::size_t i = 0; i < rays.size(); i += kStream) {
+    const std::size_t count = std::min(kStream, rays.size() - i);
+    for (std::size_t k = 0; k < count; ++k) {
+      write_ray(rays[i + k], r[k].ray);
+      r[k].hit.geomID = r[k].hit.primID = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect1M(scene_.get(), &context, r.data(), static_cast<unsigned>(count), sizeof r[0]);
+    for (std::size_t k = 0; k < count; ++k)
+      results[i + k] = {r[k].ray.tfar, r[k].hit.primID, r[k].hit.u, r[k].hit.v};
+  }
+}
+
+void EmbreeScene::any(PeerApi api, std::span<const FloatRay> rays,
+                      std::span<std::uint8_t> occluded) const {
   const FlushGuard flush;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RTCIntersectContext context = context_of(api);
+  if (api == PeerApi::packet || api == PeerApi::coherent_packet)
+    return any_packets(context, rays, occluded);
+  if (api != PeerApi::single) return any_streams(context, rays, occluded);
   RTCRay r{};
   for (std::size_t i = 0; i < rays.size(); ++i) {
     write_ray(rays[i], r);
     rtcOccluded1(scene_.get(), &context, &r);
     occluded[i] = r.tfar < 0.0f;
   }
+}
+
+void EmbreeScene::any_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                              std::span<std::uint8_t> occluded) const {
+  alignas(32) int valid[8];
+  RTCRay8 r{};
+  for (std::size_t i = 0; i < rays.size(); i += 8) {
+    const std::size_t count = std::min<std::size_t>(8, rays.size() - i);
+    write_packet(rays.subspan(i, count), r, valid);
+    rtcOccluded8(valid, scene_.get(), &context, &r);
+    for (std::size_t k = 0; k < count; ++k) occluded[i + k] = r.tfar[k] < 0.0f;
+  }
+}
+
+void EmbreeScene::any_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                              std::span<std::uint8_t> occluded) const {
+  std::vector<RTCRay> r(kStream);
+  for (std::size_t i = 0; i < rays.size(); i += kStream) {
+    const std::size_t count = std::min(kStream, rays.size() - i);
+    for (std::size_t k = 0; k < count; ++k) write_ray(rays[i + k], r[k]);
+    rtcOccluded1M(scene_.get(), &context, r.data(), static_cast<unsigned>(count), sizeof r[0]);
+    for (std::size_t k = 0; k < count; ++k) occluded[i + k] = r[k].tfar < 0.0f;
+  }
+}
+
+const char* name_of(PeerApi api) {
+  switch (api) {
+    case PeerApi::single: return "single";
+    case PeerApi::packet: return "packet";
+    case PeerApi::coherent_packet: return "coherent packet";
+    case PeerApi::stream: return "stream";
+    case PeerApi::coherent_stream: return "coherent stream";
+  }
+  return "";
 }
 
 }  // namespace strahl::peer

@@ -1,4 +1,5 @@
-// bench/peer/embree_scene.h - the peer: an Embree 3 scene of the same triangles, asked ray by ray.
+// bench/peer/embree_scene.h - the peer: an Embree 3 scene of the same triangles, asked ray by ray
+// or by each of its interfaces for many.
 //
 // As fast as it goes: quality HIGH, not robust, its own choice of instructions, subnormals flushed,
 // rays written with 16-byte stores (scalar stores would cost it failed store forwarding).
@@ -22,16 +23,34 @@ struct Result {
   float u, v;
 };
 
+/// How rays are handed over: one by one, eight at a time or in streams of kStream, the latter two
+/// also with the flag that calls them coherent.
+enum class PeerApi { single, packet, coherent_packet, stream, coherent_stream };
+inline constexpr PeerApi kPeerApis[] = {PeerApi::single, PeerApi::packet, PeerApi::coherent_packet,
+                                        PeerApi::stream, PeerApi::coherent_stream};
+const char* name_of(PeerApi api);
+
 class EmbreeScene {
  public:
   /// All triangles of the scene, instances by identity only, one thread.
   explicit EmbreeScene(const Scene& scene);
 
-  void closest(std::span<const FloatRay> rays, std::span<Result> results) const;
-  void any(std::span<const FloatRay> rays, std::span<std::uint8_t> occluded) const;
+  void closest(PeerApi api, std::span<const FloatRay> rays, std::span<Result> results) const;
+  void any(PeerApi api, std::span<const FloatRay> rays, std::span<std::uint8_t> occluded) const;
   double build_seconds() const { return build_seconds_; }
 
  private:
+  static constexpr std::size_t kStream = 1024;
+
+  void closest_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                       std::span<Result> results) const;
+  void closest_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                       std::span<Result> results) const;
+  void any_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                   std::span<std::uint8_t> occluded) const;
+  void any_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,
+                   std::span<std::uint8_t> occluded) const;
+
   std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
   double build_seconds_ = 0.0;

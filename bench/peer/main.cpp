@@ -1,9 +1,11 @@
 // strahl_bench_peer - the production path next to Embree: the same rays, interleaved, one thread.
 //
-//   strahl_bench_peer [--spec SPEC[,SPEC...]] [--size N] [--repeat N] SCENE...
+//   strahl_bench_peer [--peer single|best] [--spec SPEC[,SPEC...]] [--size N] [--repeat N] SCENE...
 //
 // Prints per scene and workload the peer's Mrays/s and, for each SPEC, the median of the ratios of
 // neighbouring runs with its 95 % interval. --size: pixels on a side, other sets have as many rays.
+// --peer best: the peer's fastest interface for each workload, of single rays, packets of eight and
+// streams, the latter two also called coherent.
 #include <algorithm>
 #include <bench/peer/embree_scene.h>
 #include <charconv>
@@ -12,8 +14,10 @@
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <strahl/base/error.h>
 #include <strahl/catalog/catalog.h>
@@ -27,12 +31,16 @@ namespace {
 struct Options {
   std::vector<std::string> specs{"wide_bvh"}, scenes;
   int size = 512, repeat = 7;
+  bool best_peer = false;
 };
+
+bool is_peer(std::string_view name) { return name == "single" || name == "best"; }
 
 /// Throws Error{usage}.
 Options parse(int argc, char** argv) {
   const std::string usage =
-      "usage: strahl_bench_peer [--spec SPEC,...] [--size N] [--repeat N] SCENE...";
+      "usage: strahl_bench_peer [--peer single|best] [--spec SPEC,...] [--size N] [--repeat N] "
+      "SCENE...";
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -48,6 +56,8 @@ Options parse(int argc, char** argv) {
       number(options.repeat);
     else if (argument == "--spec" && i + 1 < argc)
       options.specs = split_specs(argv[++i]);
+    else if (argument == "--peer" && i + 1 < argc && is_peer(argv[i + 1]))
+      options.best_peer = std::string_view(argv[++i]) == "best";
     else if (argument.starts_with("--"))
       throw Error(ErrorCode::usage, "unknown option\n" + usage, argument);
     else
@@ -86,9 +96,22 @@ class Race {
 
   double run_peer() {
     const CpuTimer timer;
-    any_ ? peer_.any(rays_, occluded_) : peer_.closest(rays_, results_);
+    any_ ? peer_.any(api_, rays_, occluded_) : peer_.closest(api_, rays_, results_);
     return timer.seconds();
   }
+  /// From now on the interface whose best of three runs is the shortest.
+  void choose_fastest() {
+    double best = std::numeric_limits<double>::infinity();
+    PeerApi fastest = api_;
+    for (const PeerApi api : kPeerApis) {
+      api_ = api;
+      double seconds = run_peer();
+      for (int i = 0; i < 2; ++i) seconds = std::min(seconds, run_peer());
+      if (seconds < best) best = seconds, fastest = api;
+    }
+    api_ = fastest;
+  }
+  PeerApi api() const { return api_; }
   double run(const Accelerator& accelerator) {
     const RayBatch batch = batch_of(rays_);
     const CpuTimer timer;
@@ -112,6 +135,7 @@ class Race {
   const EmbreeScene& peer_;
   std::span<const FloatRay> rays_;
   bool any_;
+  PeerApi api_ = PeerApi::single;
   std::vector<Result> results_;
   std::vector<std::uint8_t> occluded_, own_occluded_;
   std::vector<Hit> hits_;
@@ -141,6 +165,7 @@ void race(const std::string& name, const Options& options, Ratios& all) {
     const std::vector<FloatRay> rays = float_rays(is_any ? workload.any : workload.closest);
     if (rays.empty()) continue;
     Race r(peer, rays, is_any);
+    if (options.best_peer) r.choose_fastest();
     std::vector<std::vector<double>> theirs(built.size()), ours(built.size());
     for (int i = 0; i <= options.repeat; ++i) {
       for (std::size_t s = 0; s < built.size(); ++s) {
@@ -157,7 +182,7 @@ void race(const std::string& name, const Options& options, Ratios& all) {
       all[options.specs[s]].push_back(e.value);
       all[options.specs[s] + " " + name_of(kind)].push_back(e.value);
     }
-    std::printf("  (%zu differ)\n", r.differences());
+    std::printf("  (%s, %zu differ)\n", name_of(r.api()), r.differences());
     std::fflush(stdout);
   }
 }
