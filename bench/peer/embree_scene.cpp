@@ -184,11 +184,16 @@ void EmbreeScene::any_streams(RTCIntersectContext& context, std::span<const Floa
 
 const char* name_of(PeerApi api) {
   switch (api) {
-    case PeerApi::single: return "single";
-    case PeerApi::packet: return "packet";
-    case PeerApi::coherent_packet: return "coherent packet";
-    case PeerApi::stream: return "stream";
-    case PeerApi::coherent_stream: return "coherent stream";
+    case PeerApi::single:
+      return "single";
+    case PeerApi::packet:
+      return "packet";
+    case PeerApi::coherent_packet:
+      return "coherent packet";
+    case PeerApi::stream:
+      return "stream";
+    case PeerApi::coherent_stream:
+      return "coherent stream";
   }
   return "";
 }
