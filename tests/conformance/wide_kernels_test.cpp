@@ -89,7 +89,8 @@ struct FloatRays {
                          static_cast<float>(ray.t_max)});
     }
   }
-  /// Blocks of 64 rays close to each of a set: from the same place, in the same direction, or neither.
+  /// Blocks of 64 rays close to each of a set: from the same place, in the same direction, or
+  /// neither.
   static FloatRays bundles(const RaySet& set, std::uint64_t seed) {
     const FloatRays all(set);
     FloatRays out;

@@ -41,7 +41,8 @@ class Beam {
   using V = typename L::V;
 
   /// @param rays bits of those of the block, more than none
-  Beam(const WideRays& rays, std::uint64_t which, float reach) : signs_(rays.signs[first_of(which)]) {
+  Beam(const WideRays& rays, std::uint64_t which, float reach)
+      : signs_(rays.signs[first_of(which)]) {
     // Only whole blocks: then no lane has to be left out.
     is_narrow_ = which == ~std::uint64_t{0} && have_one_octant(rays);
     if (!is_narrow_) return;

@@ -38,7 +38,8 @@ class Flight {
     if (rays == 0) return;
     const WideEntry entry = find_entry<W>(job_.tree, job_.rays, rays);
     if (entry.count == 0) return;
-    for (; rays != 0; rays &= rays - 1) start(static_cast<std::uint32_t>(__builtin_ctzll(rays)), entry);
+    for (; rays != 0; rays &= rays - 1)
+      start(static_cast<std::uint32_t>(__builtin_ctzll(rays)), entry);
     while (at_nodes_ + at_leaves_ > 0) {
       while (at_nodes_ > 0 && at_leaves_ < kManyLeaves) visit_nodes();
       visit_leaves();
@@ -48,7 +49,8 @@ class Flight {
  private:
   using L = WideLanes<W>;
   using D = typename L::D;
-  /// No block of a tree whose root is a node, so below all that waits; its address can be asked for.
+  /// No block of a tree whose root is a node, so below all that waits; its address can be asked
+  /// for.
   static constexpr WideId kBottom = kWideLeaf;
   static constexpr std::uint32_t kManyLeaves = 24;  ///< rays at blocks that are worth a round
 

@@ -14,10 +14,9 @@
 #define STRAHL_WIDE_NODE_INL_H_
 #endif
 
-#include <type_traits>
-
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
+#include <type_traits>
 
 #include <strahl/structures/wide_bvh/wide_ray.h>
 #include <strahl/structures/wide_bvh/wide_tree.h>
