@@ -18,7 +18,7 @@ void add_advise_command(CLI::App& app, Runner& run);
 inline constexpr const char* kSceneHelp =
     "A file (PLY, OBJ, STL, OFF, glTF, GLB, NFF) or gen:NAME[:SIZE[,key=value...]]";
 inline constexpr const char* kSpecHelp =
-    "Structure: NAME[:option=value,...], see 'strahl list', or auto (default: bvh)";
+    "Structure: NAME[:option=value,...], see 'strahl list', or auto (default: wide_bvh)";
 
 /// "0.1.0", or with `verbose` also commit, instruction set, threads and dependencies.
 std::string version_text(bool verbose);

@@ -20,7 +20,7 @@ namespace strahl {
 class Level;
 
 /// The SPEC used when none is given.
-inline constexpr std::string_view kDefaultSpec = "bvh";
+inline constexpr std::string_view kDefaultSpec = "wide_bvh";
 
 /// A SPEC taken apart.
 struct Spec {
