@@ -64,8 +64,7 @@ class AnyVolume {
   AnyVolume() = default;  ///< an empty box
   // Not of itself: clang would ask whether it is copyable to find out whether it is copyable.
   template <class V>
-    requires(!std::same_as<V, AnyVolume>) && BoundingVolume<V>
-  explicit AnyVolume(V volume) {
+  requires(!std::same_as<V, AnyVolume>) && BoundingVolume<V> explicit AnyVolume(V volume) {
     constexpr auto kIndex = static_cast<std::size_t>(V::kKind);
     if constexpr (any_volume_detail::kIsSmall<V>)
       held_.template emplace<kIndex>(std::move(volume));
