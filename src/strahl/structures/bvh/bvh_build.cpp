@@ -7,6 +7,7 @@
 #include <strahl/build/object_tree.h>
 #include <strahl/build/optimise.h>
 #include <strahl/build/ploc.h>
+#include <strahl/build/spatial_tree.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/structures/bvh/bvh_build.h>
 
@@ -32,7 +33,7 @@ class BvhBuild {
 
   Hierarchy run() {
     if (refs_.empty()) return {};
-    context_.require_memory(refs_.size() * bytes_per_primitive(), "bvh");
+    require_memory();
     if (options_.builder == BvhBuilder::goldsmith_salmon && !is_optimised()) return insert();
     Tree tree = bottom_up_or_divided();
     if (!ends_in_single_primitives() && options_.arity == 2) return make_hierarchy(tree);
@@ -44,11 +45,17 @@ class BvhBuild {
 
  private:
   bool is_optimised() const { return options_.optimise != BvhOptimise::none; }
-  bool is_bottom_up() const {
-    return options_.builder == BvhBuilder::agglomerative || options_.builder == BvhBuilder::ploc;
-  }
   /// Leaves are made of such trees at the end.
-  bool ends_in_single_primitives() const { return is_optimised() || is_bottom_up(); }
+  bool ends_in_single_primitives() const {
+    return is_optimised() || options_.builder == BvhBuilder::agglomerative ||
+           options_.builder == BvhBuilder::ploc || options_.builder == BvhBuilder::spatial;
+  }
+
+  void require_memory() const {
+    const double growth = options_.builder == BvhBuilder::spatial ? 1.0 + options_.duplicates : 1.0;
+    const double references = growth * static_cast<double>(refs_.size());
+    context_.require_memory(static_cast<std::uint64_t>(references) * bytes_per_primitive(), "bvh");
+  }
 
   std::uint64_t bytes_per_primitive() const {
     std::uint64_t bytes = sizeof(PrimRef) + kTreeBytes;
@@ -71,9 +78,18 @@ class BvhBuild {
         return make_tree(build_ploc_tree(refs_, options_.radius, context_));
       case BvhBuilder::goldsmith_salmon:
         return make_binary(insert());
+      case BvhBuilder::spatial:
+        return cut();
       default:
         return divide();
     }
+  }
+
+  Tree cut() {
+    SpatialRules rules;
+    rules.cost = cost_, rules.growth = options_.duplicates, rules.max_depth = kBvhMaxDepth;
+    rules.object_bins = rules.spatial_bins = options_.bins;
+    return build_spatial_tree(source_, std::move(refs_), box_, rules, context_);
   }
 
   Tree divide() {
