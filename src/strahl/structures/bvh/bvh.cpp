@@ -89,7 +89,7 @@ void Bvh::take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildCo
 
 void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
   std::optional<Hierarchy> fitted;
-  if (tree_) fitted = fit_hierarchy(tree_->hierarchy(), source, context);
+  if (tree_) fitted = fit_hierarchy(tree_->hierarchy(), source, options_, context);
   if (fitted) {
     Bvh next(options_);
     next.refers_once_ = refers_once_, next.built_cost_ = built_cost_, next.refits_ = refits_ + 1;
@@ -100,11 +100,6 @@ void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
     }
   }
   *this = Bvh(source, options_, context);
-}
-
-BuildReport Bvh::report() const {
-  BuildReport report = tree_ ? tree_->report() : BuildReport{};
-  return report;
 }
 
 void Bvh::validate(const PrimitiveSource& source) const {

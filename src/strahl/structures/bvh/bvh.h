@@ -7,9 +7,9 @@
 //             first are traced by code of each query's own, all else through one virtual call per
 //             ray and one per leaf.
 // Parts:      a builder may cut primitives, each part in a leaf of its own (refers_once()).
-// Motion:     refit() keeps the tree and wraps its volumes anew, or builds anew when the SAH cost
-// has
-//             grown by too much or other things can be hit than before.
+// Motion:     refit() keeps the tree and wraps its volumes anew, takes out what can no longer be
+//             hit, inserts what now can, and builds anew when the SAH cost has grown by too much or
+//             a quarter of the things has changed.
 // Differs from the papers: volumes are tested in double with proven margins; hits are exact.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
@@ -18,6 +18,7 @@
 #include <type_traits>
 
 #include <strahl/bounds/aabb_volume.h>
+#include <strahl/geometry/scene.h>
 #include <strahl/query/policies.h>
 #include <strahl/structures/bvh/bvh_tree.h>
 
@@ -34,13 +35,16 @@ class Bvh {
 
   Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context);
 
-  /// Follows things that have moved; as many and numbered as those it was built over.
-  /// Deterministic for any executor, but depends on where things were before. O(n) where it does
-  /// not build. Throws as a build does, and nothing has changed then.
+  /// Follows things that have moved, come or gone (a thing is there if its box is not empty, see
+  /// geometry/subset_source.h), numbered as those it was built over. Deterministic for any
+  /// executor, but depends on what was before. O(n + changes * log n) where it does not build. Not
+  /// while rays are traced. Throws as a build does, and nothing has changed then.
   void refit(const PrimitiveSource& source, const BuildContext& context);
+  /// The same, as Accelerator::update() calls it.
+  void move(const Scene& scene, const BuildContext& context) { refit(scene, context); }
   /// How often it was fitted since it was last built.
   std::uint64_t refits() const { return refits_; }
-  static constexpr bool kRefersOnce = false;
+  static constexpr bool kRefersOnce = false;  ///< whatever the options
   /// Whether no primitive is in two leaves.
   bool refers_once() const { return refers_once_; }
 
@@ -53,7 +57,7 @@ class Bvh {
     tree_->trace(traversal_for<Q>(), ray, leaves, counters);
   }
 
-  BuildReport report() const;
+  BuildReport report() const { return tree_ ? tree_->report() : BuildReport{}; }
   void validate(const PrimitiveSource& source) const;
   void hash_into(Hash64& hash) const {
     if (tree_) tree_->hash_into(hash);

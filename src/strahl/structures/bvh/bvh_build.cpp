@@ -2,7 +2,6 @@
 #include <vector>
 
 #include <strahl/build/agglomerative.h>
-#include <strahl/build/collapse.h>
 #include <strahl/build/linked_tree.h>
 #include <strahl/build/object_tree.h>
 #include <strahl/build/optimise.h>
@@ -10,6 +9,7 @@
 #include <strahl/build/spatial_tree.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/structures/bvh/bvh_build.h>
+#include <strahl/structures/bvh/bvh_leaves.h>
 
 namespace strahl {
 namespace {
@@ -38,9 +38,8 @@ class BvhBuild {
     Tree tree = bottom_up_or_divided();
     if (!ends_in_single_primitives() && options_.arity == 2) return make_hierarchy(tree);
     if (is_optimised()) optimise(tree);
-    if (ends_in_single_primitives())
-      tree = limit_depth(std::move(tree), kBvhMaxDepth, cost_, context_);
-    return make_hierarchy(tree, Collapse(tree, collapse_rules(), context_));
+    if (ends_in_single_primitives()) return finish_bvh_tree(std::move(tree), options_, context_);
+    return make_hierarchy(tree, Collapse(tree, collapse_rules(options_), context_));
   }
 
  private:
@@ -148,15 +147,6 @@ class BvhBuild {
     else
       reinsert_nodes(linked, {}, context_);
     tree = make_tree(linked);
-  }
-
-  CollapseRules collapse_rules() const {
-    CollapseRules rules;
-    rules.width = options_.arity;
-    rules.max_leaf = static_cast<std::size_t>(options_.leaf_size);
-    rules.node_cost = cost_.traverse, rules.leaf_cost = 0.0;
-    rules.primitive_cost = cost_.intersect;
-    return rules;
   }
 
   const PrimitiveSource& source_;

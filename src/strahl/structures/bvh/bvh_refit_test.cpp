@@ -81,7 +81,7 @@ TEST(BvhRefit, MakesTheTightestBoxesThatTheTreeAllows) {
   const Boxes before = random_boxes(500), after = shaken(before, 0.3);
   Bvh bvh(before, lasting(), {});
   bvh.refit(after, {});
-  const Hierarchy fitted = *fit_hierarchy(bvh.tree()->hierarchy(), after, {});
+  const Hierarchy fitted = *fit_hierarchy(bvh.tree()->hierarchy(), after, lasting(), {});
   for (std::size_t i = 0; i < fitted.nodes.size(); ++i) {
     Aabb expected;
     std::vector<std::size_t> waiting{i};
@@ -128,22 +128,6 @@ TEST(BvhRefit, ComparesWithTheCostWhenItWasBuiltNotWithTheLastOne) {
   }
   EXPECT_GT(rebuilt_after, 3);
   EXPECT_LT(rebuilt_after, 50);
-}
-
-TEST(BvhRefit, BuildsAnewWhenOtherThingsCanBeHit) {
-  const Boxes all = random_boxes(100);
-  Boxes fewer = all, others = all, none = all;
-  fewer.boxes[17] = {};
-  others.boxes[3] = {};
-  for (Aabb& box : none.boxes) box = {};
-  for (const Boxes* before : std::initializer_list<const Boxes*>{&all, &fewer, &others, &none})
-    for (const Boxes* after : std::initializer_list<const Boxes*>{&all, &fewer, &others, &none}) {
-      Bvh bvh(*before, lasting(), {});
-      bvh.refit(*after, {});
-      EXPECT_EQ(bvh.refits(), before == after && before != &none ? 1u : 0u);
-      EXPECT_NO_THROW(bvh.validate(*after));
-      EXPECT_EQ(hash_of(bvh), hash_of(Bvh(*after, lasting(), {})));
-    }
 }
 
 TEST(BvhRefit, HoldsWholeWhatTheBuilderHasCut) {
