@@ -26,7 +26,7 @@ LinkedTree make_linked(const Hierarchy& hierarchy, std::span<const Aabb> boxes);
 
 /// Looks at so many nodes per insertion and takes the best place by then: where all boxes coincide,
 /// no bound helps.
-constexpr int kMaxPlaceVisits = 512;
+inline constexpr int kMaxPlaceVisits = 512;
 
 /// Puts a thing in; the first one becomes the root. O(log n) nodes looked at where boxes are small.
 void insert_leaf(LinkedTree& tree, std::uint32_t reference, const Aabb& box);
