@@ -73,10 +73,11 @@ double median(std::vector<double> values) {
 
 std::vector<std::string> builder_specs() {
   std::vector<std::string> specs;
-  for (const char* builder : {"scene_graph", "median_cyclic", "median_longest", "goldsmith_salmon",
-                              "sah_binned", "sah_sweep", "agglomerative", "lbvh", "ploc"})
+  for (const char* builder :
+       {"scene_graph", "median_cyclic", "median_longest", "goldsmith_salmon", "sah_binned",
+        "sah_sweep", "spatial", "agglomerative", "lbvh", "ploc"})
     specs.push_back(std::string("builder=") + builder);
-  for (const char* builder : {"median_longest", "sah_sweep", "ploc"})
+  for (const char* builder : {"median_longest", "sah_sweep", "spatial", "ploc"})
     for (const char* optimise : {"rotations", "reinsertion"})
       specs.push_back(std::string("builder=") + builder + ",optimise=" + optimise);
   return specs;

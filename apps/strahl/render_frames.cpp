@@ -66,9 +66,9 @@ std::vector<Affine> places_of(const Scene& scene) {
   return places;
 }
 
-/// A scene loaded in that pose, with nothing shared but the file's own memory.
-std::shared_ptr<const Scene> loaded_in_pose(const Scene& rest, const std::vector<Affine>& places) {
-  SceneData data = rest.data();
+/// A scene loaded in that pose, with nothing shared but vertices and the file's own memory.
+std::shared_ptr<const Scene> loaded_in_pose(const Scene& pose, const std::vector<Affine>& places) {
+  SceneData data = pose.data();
   for (std::size_t i = 0; i < places.size(); ++i) data.instances[i].to_world = places[i];
   return std::make_shared<const Scene>(std::move(data));
 }
@@ -80,8 +80,11 @@ class Animation {
     Motion motion = find_motion(arguments, rigged);
     rest_ = std::make_shared<const Scene>(std::move(rigged.scene));
     poser_.emplace(std::move(rigged.rig), std::move(motion), places_of(*rest_));
+    shaper_.emplace(*poser_, std::move(rigged.deformers));
     options_ = make_options(arguments, *rest_, format_);
-    spec_ = arguments.spec.empty() ? "two_level" : arguments.spec;
+    spec_ = arguments.spec;
+    // What each follows without being built anew.
+    if (spec_.empty()) spec_ = shaper_->moving() > 0 ? "bvh" : "two_level";
     accelerator_ = session.build(rest_, spec_);
     build_seconds_ = accelerator_->report().seconds;
   }
@@ -93,21 +96,27 @@ class Animation {
     frame.time = poser_->duration() * number / intervals;
     const Timer timer;
     const std::vector<Affine> places = poser_->at(frame.time);
-    const auto pose = std::make_shared<const Scene>(rest_->posed(places));
+    const auto pose = std::make_shared<const Scene>(pose_at(frame.time, places));
     frame.pose_seconds = timer.seconds();
     move_to(pose);
     frame.update_seconds = accelerator_->report().seconds;
     draw(frame, number);
-    if (arguments_.verify) verify(frame, number, places);
+    if (arguments_.verify) verify(frame, number, *pose, places);
     return frame;
   }
 
   const Poser& poser() const { return *poser_; }
+  const Shaper& shaper() const { return *shaper_; }
   const Scene& scene() const { return *rest_; }
   std::string spec() const { return accelerator_->spec(); }
   double build_seconds() const { return build_seconds_; }
 
  private:
+  Scene pose_at(double seconds, const std::vector<Affine>& places) const {
+    const Scene posed = rest_->posed(places);
+    return shaper_->moving() > 0 ? deformed(posed, shaper_->at(seconds)) : posed;
+  }
+
   /// Structures that cannot move are built anew.
   void move_to(const std::shared_ptr<const Scene>& pose) {
     if (can_move_) {
@@ -130,8 +139,8 @@ class Animation {
     write_image(frame.output, format_, result.image);
   }
 
-  void verify(Frame& frame, int number, const std::vector<Affine>& places) {
-    const auto loaded = loaded_in_pose(*rest_, places);
+  void verify(Frame& frame, int number, const Scene& pose, const std::vector<Affine>& places) {
+    const auto loaded = loaded_in_pose(pose, places);
     WorkloadOptions options{options_.view, kCheckedRays, arguments_.seed + unsigned(number)};
     frame.check = check_pose(*accelerator_, loaded, "bvh", options, session_.context());
     const int step = (arguments_.frames + kBruteFrames - 1) / kBruteFrames;
@@ -148,6 +157,7 @@ class Animation {
   Format format_;
   std::shared_ptr<const Scene> rest_;
   std::optional<Poser> poser_;
+  std::optional<Shaper> shaper_;
   RenderOptions options_;
   std::string spec_;
   std::unique_ptr<Accelerator> accelerator_;
@@ -213,6 +223,7 @@ Json report(const RenderArguments& arguments, const Animation& animation,
           {"structure", animation.spec()},
           {"instances", animation.scene().instances().size()},
           {"moving_instances", animation.poser().moving()},
+          {"deformed_geometries", animation.shaper().moving()},
           {"instanced_primitives", animation.scene().counts().references},
           {"duration", animation.poser().duration()},
           {"build_seconds", animation.build_seconds()},
@@ -223,12 +234,13 @@ Json report(const RenderArguments& arguments, const Animation& animation,
 std::string text(const Json& json) {
   const auto ms = [](const Json& seconds) { return 1e3 * seconds.get<double>(); };
   std::string table = fmt::format(
-      "{}: {} of {} instances move, {} primitives, structure {} built in {:.3f} ms\n"
+      "{}: {} of {} instances move, {} geometries deform, {} primitives, structure {} built in "
+      "{:.3f} ms\n"
       "{:>5} {:>9} {:>10} {:>10} {:>10}",
       json["scene"].get<std::string>(), json["moving_instances"].get<std::size_t>(),
-      json["instances"].get<std::size_t>(), json["instanced_primitives"].get<std::uint64_t>(),
-      json["structure"].get<std::string>(), ms(json["build_seconds"]), "frame", "time s", "pose ms",
-      "update ms", "trace ms");
+      json["instances"].get<std::size_t>(), json["deformed_geometries"].get<std::size_t>(),
+      json["instanced_primitives"].get<std::uint64_t>(), json["structure"].get<std::string>(),
+      ms(json["build_seconds"]), "frame", "time s", "pose ms", "update ms", "trace ms");
   const bool is_checked = json["summary"].contains("rebuild_seconds");
   table += is_checked ? fmt::format(" {:>10} {:>6}\n", "rebuild ms", "same") : "\n";
   int number = 0;

@@ -16,7 +16,7 @@
 
 #include <strahl/catalog/accelerator.h>
 #include <strahl/geometry/scene.h>
-#include <strahl/io/motion.h>
+#include <strahl/io/deform.h>
 #include <strahl/measure/advisor.h>
 
 namespace strahl::cli {

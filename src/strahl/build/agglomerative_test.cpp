@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tests/support/bundles.h>
 #include <tests/support/tree_cases.h>
 #include <vector>
 
@@ -52,6 +53,11 @@ std::vector<double> areas_of(const LinkedTree& tree) {
 TEST(Agglomerative, IsTheGreedyTree) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const Refs refs = random_refs(seed < 4 ? 50 : 200, seed);
+    EXPECT_EQ(areas_of(build_agglomerative_tree(refs, {})), greedy_areas(refs));
+  }
+  // Where bounds hardly tell boxes apart.
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Refs refs = bundled_refs(150, 8, seed);
     EXPECT_EQ(areas_of(build_agglomerative_tree(refs, {})), greedy_areas(refs));
   }
   // Sizes over many orders of magnitude.

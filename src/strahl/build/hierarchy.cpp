@@ -38,10 +38,13 @@ class Placer {
 
   void make_leaf(std::uint32_t to, std::span<const std::uint32_t> references) {
     const auto first = static_cast<std::uint32_t>(out_.references.size());
-    out_.nodes[to].first = first;
-    out_.nodes[to].count = static_cast<std::uint32_t>(references.size());
     out_.references.insert(out_.references.end(), references.begin(), references.end());
-    std::sort(out_.references.begin() + first, out_.references.end());
+    const auto begin = out_.references.begin() + first;
+    std::sort(begin, out_.references.end());
+    // Parts of one primitive may meet in a leaf.
+    out_.references.erase(std::unique(begin, out_.references.end()), out_.references.end());
+    out_.nodes[to].first = first;
+    out_.nodes[to].count = static_cast<std::uint32_t>(out_.references.size()) - first;
   }
 
  private:

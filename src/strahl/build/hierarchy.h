@@ -3,7 +3,7 @@
 // Layout: the children of a node are consecutive and come after it; the root is node 0.
 // Invariants: a node has either children (two or more, except that a root may be a leaf) or
 //   references (one or more); a node's box encloses its children's; leaves own consecutive runs of
-//   `references`, which ascend inside each leaf.
+//   `references`, which ascend inside each leaf. A primitive that was cut is in several leaves.
 // Thread safety: values.
 #pragma once
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <functional>
 #include <set>
+#include <tests/support/bundles.h>
 #include <tests/support/hierarchy_check.h>
 #include <tests/support/tree_cases.h>
 #include <vector>
@@ -72,7 +73,8 @@ TEST(InsertionTree, HoldsItsInvariants) {
         for (const std::size_t max_leaf : {1u, 5u}) {
           InsertionRules rules = with(search, order);
           rules.max_children = most, rules.max_leaf = max_leaf;
-          check_hierarchy(build_insertion_tree(refs, rules, {}), refs, max_leaf, most);
+          check_hierarchy(build_insertion_tree(refs, rules, {}), refs, max_leaf,
+                          static_cast<int>(most));
         }
 }
 
@@ -123,6 +125,19 @@ TEST(InsertionTree, BranchAndBoundFindsTheCheapestPlace) {
       const double least = least_cost_after(before, refs[n].box, most);
       EXPECT_NEAR(cost, least, 1e-12 * least) << n;
     }
+  }
+}
+
+TEST(InsertionTree, BranchAndBoundFindsNodesHardlyLargerThanTheBox) {
+  // The cheapest place is below a node of hardly the box's own area, and none above tells which.
+  const Refs refs = bundled_refs(150, 12, 8);
+  const InsertionRules rules = with(InsertSearch::branch_and_bound);
+  for (std::size_t n = 1; n < refs.size(); ++n) {
+    const Hierarchy before = build_insertion_tree(std::span(refs).first(n), rules, {});
+    const Hierarchy after = build_insertion_tree(std::span(refs).first(n + 1), rules, {});
+    const double cost = (insertion_cost(after) - 1.0) * after.nodes[0].box.half_area();
+    const double least = least_cost_after(before, refs[n].box, rules.max_children);
+    EXPECT_NEAR(cost, least, 1e-12 * least) << n;
   }
 }
 
@@ -189,7 +204,7 @@ TEST(InsertionTree, StopsWithinTheDepthBoundOnDegenerateInput) {
         rules.max_children = most, rules.max_depth = 22;
         const Hierarchy tree = build_insertion_tree(refs, rules, {});
         EXPECT_LE(tree.depth(), rules.max_depth);
-        check_hierarchy(tree, refs, 1, most);
+        check_hierarchy(tree, refs, 1, static_cast<int>(most));
       }
 }
 

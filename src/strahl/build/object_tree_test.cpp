@@ -165,6 +165,11 @@ void write_tree(const Tree& tree, std::size_t node, std::vector<std::uint32_t>& 
 TEST(ObjectTree, OfMortonCodesIsTheirRadixTree) {
   Refs refs = random_refs(500, 10);
   for (std::size_t i = 0; i < 40; ++i) refs[i].box = refs[7].box;  // equal codes
+  for (std::size_t i = 40; i < 80; ++i) {  // codes that differ in the last bits only
+    const auto steps = [](std::size_t n) { return 3e-7 * static_cast<double>(n); };
+    const Vec3d by{steps(i % 2), steps(i / 2 % 3), steps(i / 6 % 4)};
+    refs[i].box = {refs[40].box.lo + by, refs[40].box.hi + by};
+  }
   std::vector<std::uint32_t> expected, got;
   write_radix_tree(morton_order(refs, {}), expected);
   write_tree(build(refs, Splitter::morton, {kCost, 1, 64}), 0, got);

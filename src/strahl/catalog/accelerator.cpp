@@ -4,6 +4,7 @@
 #include <strahl/base/error.h>
 #include <strahl/base/fp_env.h>
 #include <strahl/catalog/accelerator.h>
+#include <strahl/geometry/deform.h>
 
 namespace strahl {
 namespace {
@@ -114,12 +115,13 @@ Hit Accelerator::closest_hit(const Ray& ray) const {
 }
 
 void Accelerator::require_pose(const Scene& moved) const {
-  if (moved.is_pose_of(*scene_)) return;
-  throw Error(ErrorCode::usage, "the scene to move to is not a pose of the one built over", spec_);
+  if (has_same_things(*scene_, moved)) return;
+  throw Error(ErrorCode::usage, "the scene to follow has other things than the one built over",
+              spec_);
 }
 
 void Accelerator::update(std::shared_ptr<const Scene>, const BuildContext&) {
-  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level can", spec_);
+  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level and bvh can", spec_);
 }
 
 }  // namespace strahl

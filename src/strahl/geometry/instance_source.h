@@ -54,6 +54,7 @@ class InstanceSource final : public PrimitiveSource {
     return Aabb::intersection(bounds(instance), box);
   }
 
+  const Scene& scene() const { return *scene_; }
   /// An instance of each object, in the order of their first instances.
   const std::vector<std::uint32_t>& objects() const { return grouping_->objects; }
   /// Index into objects().

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,11 +75,11 @@ class SceneReader {
 
   RiggedScene read_rigged() {
     RiggedScene result;
+    keeps_deformers_ = true;
+    blended_ = gltf::find_blended_nodes(document_);
     result.scene = read();
     result.animations = gltf::read_animations(accessors_);
-    const auto is_fixed = [](const std::optional<Mount>& mount) { return !mount; };
-    if (!result.animations.empty() && std::any_of(mounts_.begin(), mounts_.end(), is_fixed))
-      document_.warn(document_.root(), "meshes with a skin keep their bind pose");
+    result.deformers = std::move(deformers_);
     for (std::string& warning : document_.take_warnings())
       result.scene.warnings.push_back(std::move(warning));
     result.rig = std::move(tree_.rig);
@@ -92,8 +93,8 @@ class SceneReader {
   Geometry read_primitive(const JsonValue& primitive, const std::vector<double>& weights);
   void assign_material(Geometry& geometry, const JsonValue& primitive);
   void place_node(std::uint32_t n);
-  Range deform(const JsonValue& node, const JsonValue& mesh, Range base);
-  Geometry deformed(const Geometry& base, const JsonValue& node, const JsonValue& primitive,
+  Range deform(std::uint32_t n, const JsonValue& mesh, Range base);
+  Geometry deformed(std::uint32_t n, const Geometry& base, const JsonValue& primitive,
                     const std::vector<double>& weights);
   void place(const JsonValue& node, Range range, const Affine& to_world,
              const std::optional<Mount>& mount);
@@ -104,7 +105,10 @@ class SceneReader {
   gltf::Accessors accessors_;
   gltf::MeshReader meshes_;
   gltf::NodeTree tree_;
-  gltf::Skins skins_{accessors_, tree_};
+  gltf::Skins skins_{accessors_};
+  std::vector<Deformer> deformers_;
+  bool keeps_deformers_ = false;
+  std::set<std::uint32_t> blended_;  ///< nodes whose morph weights are animated
   std::vector<Range> mesh_ranges_;
   std::vector<std::optional<Mount>> mounts_;  ///< per instance of the scene
   std::uint32_t next_instance_id_ = 0;
@@ -132,20 +136,14 @@ void SceneReader::read_mesh(const JsonValue& mesh) {
   mesh_ranges_.push_back({first, static_cast<std::uint32_t>(primitives.size())});
 }
 
-std::vector<Vec3f> rounded(const std::vector<Vec3d>& positions) {
-  std::vector<Vec3f> result;
-  result.reserve(positions.size());
-  for (const Vec3d& p : positions) result.push_back(Vec3f(p));
-  return result;
-}
-
 Geometry SceneReader::read_primitive(const JsonValue& primitive,
                                      const std::vector<double>& weights) {
   Geometry geometry;
   geometry.mesh = meshes_.read(primitive);
   if (!weights.empty() && geometry.mesh.size() > 0)
     geometry.mesh = gltf::with_positions(
-        geometry.mesh, rounded(gltf::morphed_positions(accessors_, primitive, weights)));
+        geometry.mesh,
+        gltf::read_shapes(accessors_, primitive, weights, false).positions(weights, {}));
   assign_material(geometry, primitive);
   return geometry;
 }
@@ -166,7 +164,8 @@ void SceneReader::place_node(std::uint32_t n) {
   const std::uint32_t m = reference->index(mesh_ranges_.size(), "meshes");
   Range range = mesh_ranges_[m];
   const bool is_skinned = node.find("skin").has_value();
-  if (is_skinned || node.find("weights")) range = deform(node, document_.item("meshes", m), range);
+  if (is_skinned || node.find("weights") || blended_.count(n) != 0)
+    range = deform(n, document_.item("meshes", m), range);
   // A skin takes the mesh to the world by its joints alone.
   if (is_skinned) return place(node, range, Affine{}, std::nullopt);
   for (const Affine& copy : gltf::read_copies(accessors_, node))
@@ -174,24 +173,33 @@ void SceneReader::place_node(std::uint32_t n) {
 }
 
 // Copies of the mesh's geometries with the node's own shape.
-Range SceneReader::deform(const JsonValue& node, const JsonValue& mesh, Range base) {
+Range SceneReader::deform(std::uint32_t n, const JsonValue& mesh, Range base) {
+  const JsonValue node = document_.item("nodes", n);
   const std::vector<double> weights = gltf::read_morph_weights(node.find("weights") ? node : mesh);
   const Range result{static_cast<std::uint32_t>(scene_.geometries.size()), base.count};
   for (std::uint32_t p = 0; p < base.count; ++p)
     scene_.geometries.push_back(
-        deformed(scene_.geometries[base.first + p], node, mesh.at("primitives")[p], weights));
+        deformed(n, scene_.geometries[base.first + p], mesh.at("primitives")[p], weights));
   return result;
 }
 
-Geometry SceneReader::deformed(const Geometry& base, const JsonValue& node,
-                               const JsonValue& primitive, const std::vector<double>& weights) {
+// The next geometry of the scene.
+Geometry SceneReader::deformed(std::uint32_t n, const Geometry& base, const JsonValue& primitive,
+                               const std::vector<double>& weights) {
   document_.charge(base.materials.size(), sizeof(std::uint32_t), primitive);
   Geometry copy = base;
   if (base.mesh.size() == 0) return copy;
-  std::vector<Vec3d> positions = gltf::morphed_positions(accessors_, primitive, weights);
-  if (const std::optional<JsonValue> skin = node.find("skin"))
-    gltf::apply_skin(accessors_, primitive, skins_.joints(*skin), positions);
-  copy.mesh = gltf::with_positions(base.mesh, rounded(positions));
+  Deformer deformer = gltf::read_shapes(accessors_, primitive, weights, blended_.count(n) != 0);
+  deformer.geometry = static_cast<std::uint32_t>(scene_.geometries.size());
+  deformer.node = n;
+  if (const std::optional<JsonValue> skin = document_.item("nodes", n).find("skin")) {
+    const gltf::Skin& own = skins_.get(*skin);
+    deformer.joints = own.joints, deformer.inverse_binds = own.inverse_binds;
+    deformer.skin =
+        gltf::read_skin_weights(accessors_, primitive, deformer.base.size(), own.joints.size());
+  }
+  copy.mesh = gltf::with_positions(base.mesh, deformer.positions(deformer.weights, tree_.to_world));
+  if (keeps_deformers_) deformers_.push_back(std::move(deformer));
   return copy;
 }
 
@@ -232,6 +240,8 @@ void SceneReader::drop_unused_geometries() {
   for (Instance& instance : scene_.instances)
     instance.first_geometry = instance.geometry_count > 0 ? new_index[instance.first_geometry] : 0;
   scene_.geometries = std::move(kept);
+  std::erase_if(deformers_, [&](const Deformer& d) { return !is_used[d.geometry]; });
+  for (Deformer& deformer : deformers_) deformer.geometry = new_index[deformer.geometry];
 }
 
 }  // namespace

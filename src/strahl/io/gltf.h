@@ -9,8 +9,8 @@
 #pragma once
 
 #include <strahl/geometry/scene.h>
+#include <strahl/io/deform.h>
 #include <strahl/io/file_bytes.h>
-#include <strahl/io/motion.h>
 
 namespace strahl {
 
@@ -28,8 +28,9 @@ namespace strahl {
 /// Complexity: O(file size + nodes), except that each skinned node costs its vertices.
 SceneData read_gltf(const FileBytes& file);
 
-/// The same with the hierarchy of nodes and the file's animations. What a skin deforms keeps its
-/// bind pose, with a warning where something is animated. Throws also as gltf::read_animations().
+/// The same with the hierarchy of nodes, the file's animations and what they deform: a mesh whose
+/// morph weights are animated is a geometry of its own for each node. Throws also as
+/// gltf::read_animations().
 RiggedScene read_rigged_gltf(const FileBytes& file);
 
 }  // namespace strahl

@@ -15,15 +15,16 @@ class ChannelReader {
   ChannelReader(Accessors& accessors, const JsonValue& animation)
       : accessors_(accessors), samplers_(animation.find("samplers")) {}
 
-  /// Nothing for channels that move no node's place.
+  /// Nothing for channels that name no node.
   std::optional<Track> read(const JsonValue& channel) {
     const JsonValue target = channel.at("target");
     const std::optional<JsonValue> node = target.find("node");
-    const std::optional<Channel> path = read_path(target.at("path"));
-    if (!node || !path) return std::nullopt;
+    const Channel path = read_path(target.at("path"));
+    if (!node) return std::nullopt;
     Track track;
     track.node = node->index(accessors_.document().count("nodes"), "nodes");
-    track.channel = *path;
+    track.channel = path;
+    if (path == Channel::weights) track.count = count_targets(*node);
     const JsonValue sampler = sampler_of(channel.at("sampler"));
     track.interpolation = read_interpolation(sampler);
     track.times = read_times(sampler.at("input"));
@@ -37,14 +38,27 @@ class ChannelReader {
     return (*samplers_)[i];
   }
 
-  std::optional<Channel> read_path(const JsonValue& path) {
+  Channel read_path(const JsonValue& path) {
     const std::string& name = path.string();
     if (name == "translation") return Channel::translation;
     if (name == "rotation") return Channel::rotation;
     if (name == "scale") return Channel::scale;
-    if (name != "weights") path.fail("unknown path '" + printable(name) + "'");
-    accessors_.document().warn(path, "animated morph weights keep their values at rest");
-    return std::nullopt;
+    if (name == "weights") return Channel::weights;
+    path.fail("unknown path '" + printable(name) + "'");
+  }
+
+  /// Morph targets of what a node shows.
+  std::size_t count_targets(const JsonValue& node_reference) const {
+    const Document& document = accessors_.document();
+    const std::optional<JsonValue> mesh = document.item("nodes", node_reference).find("mesh");
+    if (!mesh) node_reference.fail("the node has no mesh whose weights could move");
+    std::size_t most = 0;
+    const JsonValue primitives = document.item("meshes", *mesh).at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p)
+      if (const std::optional<JsonValue> targets = primitives[p].find("targets"))
+        most = std::max(most, targets->size());
+    if (most == 0) node_reference.fail("the mesh of the node has no morph targets");
+    return most;
   }
 
   static Interpolation read_interpolation(const JsonValue& sampler) {
@@ -74,7 +88,9 @@ class ChannelReader {
   std::vector<double> read_values(const JsonValue& reference, const Track& track) {
     const std::size_t width = components(track.channel);
     const Array& array = accessors_.get(reference, width);
-    const std::size_t per_time = track.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    const std::size_t per_key = track.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    const std::size_t per_time =
+        track.channel == Channel::weights ? per_key * track.count : per_key;
     if (array.count != per_time * track.times.size())
       reference.fail(std::to_string(array.count) + " values for " +
                      std::to_string(track.times.size()) + " times");
@@ -86,7 +102,7 @@ class ChannelReader {
         values.push_back(array.number(i, c));
         length += std::abs(values.back());
       }
-      const bool is_tangent = per_time == 3 && i % 3 != 1;
+      const bool is_tangent = per_key == 3 && i % 3 != 1;
       const bool needs_length = track.channel == Channel::rotation && !is_tangent;
       if (!std::isfinite(length) || (needs_length && length == 0.0))
         reference.fail("value " + std::to_string(i) +
@@ -115,6 +131,20 @@ Motion read_animation(Accessors& accessors, const JsonValue& animation) {
 }
 
 }  // namespace
+
+std::set<std::uint32_t> find_blended_nodes(const Document& document) {
+  std::set<std::uint32_t> nodes;
+  for (std::size_t i = 0; i < document.count("animations"); ++i) {
+    const std::optional<JsonValue> channels = document.item("animations", i).find("channels");
+    for (std::size_t c = 0; channels && c < channels->size(); ++c) {
+      const std::optional<JsonValue> target = (*channels)[c].find("target");
+      const std::optional<JsonValue> node = target ? target->find("node") : std::nullopt;
+      if (node && string_or(*target, "path", "") == "weights")
+        nodes.insert(node->index(document.count("nodes"), "nodes"));
+    }
+  }
+  return nodes;
+}
 
 std::vector<Motion> read_animations(Accessors& accessors) {
   std::vector<Motion> motions;

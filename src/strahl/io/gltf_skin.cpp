@@ -19,15 +19,16 @@ const Array& same_length(const Array& array, std::size_t count, const JsonValue&
   return array;
 }
 
-void add_target(Accessors& accessors, const JsonValue& target, double weight,
-                std::vector<Vec3d>& positions) {
+/// Differences to the base; nothing where the target moves no positions.
+std::vector<Vec3d> read_target(Accessors& accessors, const JsonValue& target, std::size_t count) {
   const std::optional<JsonValue> reference = target.find("POSITION");
-  if (weight == 0 || !reference) return;
-  const Array& deltas =
-      same_length(read_positions(accessors, *reference), positions.size(), *reference);
-  accessors.document().charge(deltas.count, sizeof(Vec3f), *reference);
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    positions[i] = positions[i] + weight * vector_at(deltas, i);
+  if (!reference) return {};
+  const Array& deltas = same_length(read_positions(accessors, *reference), count, *reference);
+  accessors.document().charge(deltas.count, sizeof(Vec3d), *reference);
+  std::vector<Vec3d> differences;
+  differences.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) differences.push_back(vector_at(deltas, i));
+  return differences;
 }
 
 // One pair JOINTS_n, WEIGHTS_n of vertex attributes: four influences each.
@@ -61,29 +62,14 @@ std::vector<Influences> read_all_influences(Accessors& accessors, const JsonValu
   return sets;
 }
 
-const Affine& joint_of(const Influences& set, std::size_t vertex, std::size_t k,
-                       const std::vector<Affine>& joints) {
+Influence influence_of(const Influences& set, std::size_t vertex, std::size_t k,
+                       std::size_t joint_count) {
   // Joint indices are small integers, so the number is exact.
   const auto joint = static_cast<std::size_t>(set.joints.number(vertex, k));
-  if (joint >= joints.size())
+  if (joint >= joint_count)
     set.place.fail("joint " + std::to_string(joint) + " of vertex " + std::to_string(vertex) +
-                   ", but the skin has " + std::to_string(joints.size()));
-  return joints[joint];
-}
-
-Vec3d skinned(const std::vector<Influences>& sets, std::size_t vertex, const Vec3d& position,
-              const std::vector<Affine>& joints) {
-  Vec3d sum;
-  double total = 0;
-  for (const Influences& set : sets)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const double weight = set.weights.number(vertex, k);
-      if (weight == 0) continue;
-      sum = sum + weight * joint_of(set, vertex, k, joints).point(position);
-      total += weight;
-    }
-  // Stored weights add up to 1 only within rounding.
-  return total == 0 ? joint_of(sets[0], vertex, 0, joints).point(position) : sum / total;
+                   ", but the skin has " + std::to_string(joint_count));
+  return {static_cast<std::uint32_t>(joint), set.weights.number(vertex, k)};
 }
 
 }  // namespace
@@ -96,55 +82,66 @@ std::vector<double> read_morph_weights(const JsonValue& holder) {
   return weights;
 }
 
-std::vector<Vec3d> morphed_positions(Accessors& accessors, const JsonValue& primitive,
-                                     const std::vector<double>& weights) {
+Deformer read_shapes(Accessors& accessors, const JsonValue& primitive, std::vector<double> weights,
+                     bool has_all) {
   const JsonValue reference = primitive.at("attributes").at("POSITION");
   const Array& base = read_positions(accessors, reference);
   accessors.document().charge(base.count, sizeof(Vec3d) + sizeof(Vec3f), reference);
-  std::vector<Vec3d> positions;
-  positions.reserve(base.count);
-  for (std::size_t i = 0; i < base.count; ++i) positions.push_back(vector_at(base, i));
+  Deformer deformer;
+  deformer.base.reserve(base.count);
+  for (std::size_t i = 0; i < base.count; ++i) deformer.base.push_back(vector_at(base, i));
 
   const std::optional<JsonValue> targets = primitive.find("targets");
-  if (weights.size() > (targets ? targets->size() : 0))
+  const std::size_t count = targets ? targets->size() : 0;
+  if (weights.size() > count)
     primitive.fail("has fewer morph targets than the " + std::to_string(weights.size()) +
                    " weights of its mesh or node");
-  for (std::size_t t = 0; t < weights.size(); ++t)
-    add_target(accessors, (*targets)[t], weights[t], positions);
-  return positions;
+  deformer.targets.resize(has_all ? count : weights.size());
+  for (std::size_t t = 0; t < deformer.targets.size(); ++t)
+    if (has_all || weights[t] != 0.0)
+      deformer.targets[t] = read_target(accessors, (*targets)[t], base.count);
+  deformer.weights = std::move(weights);
+  return deformer;
 }
 
-const std::vector<Affine>& Skins::joints(const JsonValue& reference) {
+const Skin& Skins::get(const JsonValue& reference) {
   const std::size_t i = reference.index(skins_.size(), "skins");
   if (!skins_[i]) skins_[i] = read(accessors_.document().item("skins", i));
   return *skins_[i];
 }
 
-std::vector<Affine> Skins::read(const JsonValue& skin) {
+Skin Skins::read(const JsonValue& skin) {
   const JsonValue list = skin.at("joints");
   const std::optional<JsonValue> reference = skin.find("inverseBindMatrices");
   const Array* inverse_binds = reference ? &accessors_.get(*reference, 16) : nullptr;
   if (inverse_binds != nullptr && inverse_binds->count < list.size())
     reference->fail(std::to_string(inverse_binds->count) + " matrices for " +
                     std::to_string(list.size()) + " joints");
-  std::vector<Affine> joints;
+  Skin result;
   for (std::size_t j = 0; j < list.size(); ++j) {
-    Affine to_world = tree_.to_world[list[j].index(tree_.to_world.size(), "nodes")];
-    if (inverse_binds != nullptr) {
-      std::array<double, 16> columns{};
-      for (std::size_t c = 0; c < 16; ++c) columns[c] = inverse_binds->number(j, c);
-      to_world = to_world * from_columns(columns, *reference);
-    }
-    joints.push_back(to_world);
+    result.joints.push_back(list[j].index(accessors_.document().count("nodes"), "nodes"));
+    if (inverse_binds == nullptr) continue;
+    std::array<double, 16> columns{};
+    for (std::size_t c = 0; c < 16; ++c) columns[c] = inverse_binds->number(j, c);
+    result.inverse_binds.push_back(from_columns(columns, *reference));
   }
-  return joints;
+  return result;
 }
 
-void apply_skin(Accessors& accessors, const JsonValue& primitive, const std::vector<Affine>& joints,
-                std::vector<Vec3d>& positions) {
-  const std::vector<Influences> sets = read_all_influences(accessors, primitive, positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    positions[i] = skinned(sets, i, positions[i], joints);
+SkinWeights read_skin_weights(Accessors& accessors, const JsonValue& primitive,
+                              std::size_t vertex_count, std::size_t joint_count) {
+  const std::vector<Influences> sets = read_all_influences(accessors, primitive, vertex_count);
+  SkinWeights skin;
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    for (const Influences& set : sets)
+      for (std::size_t k = 0; k < 4; ++k)
+        if (set.weights.number(i, k) != 0.0)
+          skin.influences.push_back(influence_of(set, i, k, joint_count));
+    if (skin.influences.size() == skin.starts.back())
+      skin.influences.push_back(influence_of(sets[0], i, 0, joint_count));
+    skin.starts.push_back(static_cast<std::uint32_t>(skin.influences.size()));
+  }
+  return skin;
 }
 
 }  // namespace strahl::gltf

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <strahl/geometry/scene.h>
-#include <strahl/io/motion.h>
+#include <strahl/io/deform.h>
 
 namespace strahl {
 

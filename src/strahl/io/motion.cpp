@@ -54,7 +54,11 @@ Segment segment_at(const std::vector<double>& times, double seconds) {
 
 class Sampler {
  public:
-  explicit Sampler(const Track& track) : track_(track), width_(components(track.channel)) {}
+  explicit Sampler(const Track& track)
+      : track_(track), width_(components(track.channel)), stride_(width_) {}
+  /// Of one weight.
+  Sampler(const Track& track, std::size_t weight)
+      : track_(track), width_(1), stride_(track.count), offset_(weight) {}
 
   Value at(double seconds) const {
     const Segment segment = segment_at(track_.times, seconds);
@@ -69,7 +73,7 @@ class Sampler {
  private:
   Value element(std::size_t i) const {
     Value v{};
-    for (std::size_t c = 0; c < width_; ++c) v[c] = track_.values[i * width_ + c];
+    for (std::size_t c = 0; c < width_; ++c) v[c] = track_.values[i * stride_ + offset_ + c];
     return v;
   }
   bool is_cubic() const { return track_.interpolation == Interpolation::cubic_spline; }
@@ -88,7 +92,7 @@ class Sampler {
   }
 
   const Track& track_;
-  std::size_t width_;
+  std::size_t width_, stride_, offset_ = 0;
 };
 
 /// q * r: the rotation r first, in the space that q turns.
@@ -114,6 +118,7 @@ void turn_place(NodePlace& place, const Value& rotation) {
 }
 
 void apply(const Track& track, double seconds, NodePlace& place) {
+  if (track.channel == Channel::weights) return;
   const Value v = track.at(seconds);
   switch (track.channel) {
     case Channel::translation:
@@ -130,16 +135,25 @@ void apply(const Track& track, double seconds, NodePlace& place) {
     case Channel::angle:
       turn_place(place, turn(track.axis, v[0]));
       break;
+    case Channel::weights:
+      break;
   }
 }
 
 }  // namespace
 
 std::size_t components(Channel channel) {
-  return channel == Channel::rotation ? 4 : channel == Channel::angle ? 1 : 3;
+  if (channel == Channel::angle || channel == Channel::weights) return 1;
+  return channel == Channel::rotation ? 4 : 3;
 }
 
 std::array<double, 4> Track::at(double seconds) const { return Sampler(*this).at(seconds); }
+
+std::vector<double> Track::weights_at(double seconds) const {
+  std::vector<double> weights;
+  for (std::size_t w = 0; w < count; ++w) weights.push_back(Sampler(*this, w).at(seconds)[0]);
+  return weights;
+}
 
 Poser::Poser(Rig rig, Motion motion, std::vector<Affine> rest)
     : rig_(std::move(rig)), motion_(std::move(motion)), rest_(std::move(rest)) {
@@ -147,15 +161,16 @@ Poser::Poser(Rig rig, Motion motion, std::vector<Affine> rest)
   std::stable_sort(motion_.tracks.begin(), motion_.tracks.end(),
                    [](const Track& a, const Track& b) { return a.channel < b.channel; });
   check_tracks();
-  std::vector<bool> moves(rig_.nodes.size());
-  for (const Track& track : motion_.tracks) moves[track.node] = true;
+  moves_.resize(rig_.nodes.size());
+  for (const Track& track : motion_.tracks)
+    if (track.channel != Channel::weights) moves_[track.node] = true;
   for (const RigNode& node : rig_.nodes) rest_places_.push_back(node.rest);
   for (const std::uint32_t n : rig_.order) {
     const std::uint32_t parent = rig_.nodes[n].parent;
-    if (parent != RigNode::kNoParent && moves[parent]) moves[n] = true;
+    if (parent != RigNode::kNoParent && moves_[parent]) moves_[n] = true;
   }
   for (std::uint32_t i = 0; i < rig_.mounts.size(); ++i)
-    if (rig_.mounts[i] && moves[rig_.mounts[i]->node]) moving_.push_back(i);
+    if (rig_.mounts[i] && moves_[rig_.mounts[i]->node]) moving_.push_back(i);
 }
 
 std::string Poser::place_of(std::uint32_t node) const {
@@ -177,11 +192,22 @@ void Poser::check_tracks() const {
   }
 }
 
-std::vector<Affine> Poser::at(double seconds) const {
+std::vector<Affine> Poser::nodes_at(double seconds) const {
   const FpEnvGuard environment;
   std::vector<NodePlace> places = rest_places_;
   for (const Track& track : motion_.tracks) apply(track, seconds, places[track.node]);
-  const std::vector<Affine> world = rig_.to_world(places);
+  return rig_.to_world(places);
+}
+
+const Track* Poser::weights_of(std::uint32_t node) const {
+  for (const Track& track : motion_.tracks)
+    if (track.channel == Channel::weights && track.node == node) return &track;
+  return nullptr;
+}
+
+std::vector<Affine> Poser::at(double seconds) const {
+  const FpEnvGuard environment;
+  const std::vector<Affine> world = nodes_at(seconds);
   std::vector<Affine> pose = rest_;
   for (const std::uint32_t i : moving_) {
     pose[i] = world[rig_.mounts[i]->node] * rig_.mounts[i]->copy;

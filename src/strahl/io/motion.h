@@ -17,10 +17,10 @@
 
 namespace strahl {
 
-enum class Channel : std::uint8_t { translation, rotation, scale, angle };
+enum class Channel : std::uint8_t { translation, rotation, scale, angle, weights };
 enum class Interpolation : std::uint8_t { linear, step, cubic_spline };
 
-/// Numbers per value: 3, 4 (x, y, z, w), 3, 1 (radians).
+/// Numbers per value: 3, 4 (x, y, z, w), 3, 1 (radians); of weights as many as the track says.
 std::size_t components(Channel channel);
 
 struct Track {
@@ -28,11 +28,13 @@ struct Track {
   Channel channel = Channel::translation;
   Interpolation interpolation = Interpolation::linear;
   Vec3d axis{0, 0, 1};        ///< of angle, in the node's own space; any length but 0
+  std::size_t count = 0;      ///< of weights: how many
   std::vector<double> times;  ///< seconds, at least one, strictly ascending
   std::vector<double> values;
 
   /// The value at a time; rotations are of unit length.
   std::array<double, 4> at(double seconds) const;
+  std::vector<double> weights_at(double seconds) const;
 };
 
 /// One animation.
@@ -41,13 +43,6 @@ struct Motion {
   std::vector<Track> tracks;
   double duration = 0.0;  ///< seconds
   std::string source;     ///< for messages
-};
-
-/// A scene with all that can move it.
-struct RiggedScene {
-  SceneData scene;
-  Rig rig;
-  std::vector<Motion> animations;  ///< of the file
 };
 
 /// Places the instances of a rig at any time.
@@ -65,6 +60,13 @@ class Poser {
   /// Throws Error{bad_input} naming node and time where a transform is singular or nearly so.
   std::vector<Affine> at(double seconds) const;
 
+  /// Whether the node or one above it is moved.
+  bool moves(std::uint32_t node) const { return moves_[node]; }
+  /// World transforms of all nodes.
+  std::vector<Affine> nodes_at(double seconds) const;
+  /// What blends the shapes of a node's mesh; null where nothing does.
+  const Track* weights_of(std::uint32_t node) const;
+
  private:
   void check_tracks() const;
   std::string place_of(std::uint32_t node) const;
@@ -74,6 +76,7 @@ class Poser {
   std::vector<Affine> rest_;            ///< per instance
   std::vector<NodePlace> rest_places_;  ///< per node
   std::vector<std::uint32_t> moving_;   ///< instances
+  std::vector<bool> moves_;             ///< per node
 };
 
 }  // namespace strahl

@@ -1,9 +1,11 @@
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <strahl/bounds/all_volumes.h>
 #include <strahl/structures/bvh/any_volume.h>
 #include <strahl/structures/bvh/bvh.h>
+#include <strahl/structures/bvh/bvh_refit.h>
 #include <strahl/structures/bvh/volume_choice.h>
 
 namespace strahl {
@@ -62,23 +64,46 @@ std::unique_ptr<VolumeTree> make_auto_tree(const PrimitiveSource& source, Hierar
 }  // namespace
 
 Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : traversal_(options.traversal) {
+    : options_(options), traversal_(options.traversal) {
   Hierarchy hierarchy = build_bvh_hierarchy(source, options, context);
   if (hierarchy.nodes.empty()) return;
-  const SahCost cost{options.traverse_cost, options.intersect_cost};
-  if (options.bv == BvhVolume::automatic)
+  if (options.builder == BvhBuilder::spatial)
+    refers_once_ = count_things(hierarchy, source.size()) == hierarchy.references.size();
+  take(source, std::move(hierarchy), context);
+  built_cost_ = tree_->report().sah_cost;
+}
+
+void Bvh::take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildContext& context) {
+  const SahCost cost{options_.traverse_cost, options_.intersect_cost};
+  if (options_.bv == BvhVolume::automatic)
     tree_ = make_auto_tree(source, std::move(hierarchy), cost, context);
   else
-    tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options.bv), [&]<class V>() {
+    tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options_.bv), [&]<class V>() {
       return make_tree<V>(source, std::move(hierarchy), cost, context);
     });
   const auto* boxes = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
-  if (boxes != nullptr && boxes->is_binary() && traversal_ == BvhTraversal::ordered)
-    binary_boxes_ = boxes;
+  const bool is_fast =
+      boxes != nullptr && boxes->is_binary() && traversal_ == BvhTraversal::ordered;
+  binary_boxes_ = is_fast ? boxes : nullptr;
+}
+
+void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
+  std::optional<Hierarchy> fitted;
+  if (tree_) fitted = fit_hierarchy(tree_->hierarchy(), source, options_, context);
+  if (fitted) {
+    Bvh next(options_);
+    next.refers_once_ = refers_once_, next.built_cost_ = built_cost_, next.refits_ = refits_ + 1;
+    next.take(source, *std::move(fitted), context);
+    if (next.tree_->report().sah_cost <= options_.rebuild_factor * built_cost_) {
+      *this = std::move(next);
+      return;
+    }
+  }
+  *this = Bvh(source, options_, context);
 }
 
 void Bvh::validate(const PrimitiveSource& source) const {
-  if (tree_) return tree_->validate(source);
+  if (tree_) return tree_->validate(source, refers_once_);
   for (std::uint32_t i = 0; i < source.size(); ++i)
     if (!source.bounds(i).is_empty())
       throw std::logic_error("bvh: a primitive is not in exactly one leaf");

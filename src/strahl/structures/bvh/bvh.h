@@ -6,6 +6,10 @@
 // nearest
 //             first are traced by code of each query's own, all else through one virtual call per
 //             ray and one per leaf.
+// Parts:      a builder may cut primitives, each part in a leaf of its own (refers_once()).
+// Motion:     refit() keeps the tree and wraps its volumes anew, takes out what can no longer be
+//             hit, inserts what now can, and builds anew when the SAH cost has grown by too much or
+//             a quarter of the things has changed.
 // Differs from the papers: volumes are tested in double with proven margins; hits are exact.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
@@ -14,6 +18,7 @@
 #include <type_traits>
 
 #include <strahl/bounds/aabb_volume.h>
+#include <strahl/geometry/scene.h>
 #include <strahl/query/policies.h>
 #include <strahl/structures/bvh/bvh_tree.h>
 
@@ -27,9 +32,21 @@ class Bvh {
   using Options = BvhOptions;
   static constexpr const char* kName = "bvh";
   static constexpr const char* kTitle = "bounding volume hierarchy";
-  static constexpr bool kRefersOnce = true;
 
   Bvh(const PrimitiveSource& source, const Options& options, const BuildContext& context);
+
+  /// Follows things that have moved, come or gone (a thing is there if its box is not empty, see
+  /// geometry/subset_source.h), numbered as those it was built over. Deterministic for any
+  /// executor, but depends on what was before. O(n + changes * log n) where it does not build. Not
+  /// while rays are traced. Throws as a build does, and nothing has changed then.
+  void refit(const PrimitiveSource& source, const BuildContext& context);
+  /// The same, as Accelerator::update() calls it.
+  void move(const Scene& scene, const BuildContext& context) { refit(scene, context); }
+  /// How often it was fitted since it was last built.
+  std::uint64_t refits() const { return refits_; }
+  static constexpr bool kRefersOnce = false;  ///< whatever the options
+  /// Whether no primitive is in two leaves.
+  bool refers_once() const { return refers_once_; }
 
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
@@ -56,10 +73,17 @@ class Bvh {
     return traversal_ == BvhTraversal::heap && !narrows ? BvhTraversal::dfs : traversal_;
   }
 
-  friend class BvhBreaker;                             ///< plants faults for the tests
+  explicit Bvh(const Options& options) : options_(options), traversal_(options.traversal) {}
+  void take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildContext& context);
+
+  friend class BvhBreaker;  ///< plants faults for the tests
+  Options options_;
   std::unique_ptr<VolumeTree> tree_;                   ///< null when there is nothing to hit
   const BvhTree<AabbVolume>* binary_boxes_ = nullptr;  ///< the tree, if it has the fast path
   BvhTraversal traversal_;
+  bool refers_once_ = true;
+  double built_cost_ = 0.0;  ///< SAH, when it was last built
+  std::uint64_t refits_ = 0;
 };
 
 }  // namespace strahl

@@ -2,13 +2,14 @@
 #include <vector>
 
 #include <strahl/build/agglomerative.h>
-#include <strahl/build/collapse.h>
 #include <strahl/build/linked_tree.h>
 #include <strahl/build/object_tree.h>
 #include <strahl/build/optimise.h>
 #include <strahl/build/ploc.h>
+#include <strahl/build/spatial_tree.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/structures/bvh/bvh_build.h>
+#include <strahl/structures/bvh/bvh_leaves.h>
 
 namespace strahl {
 namespace {
@@ -32,23 +33,28 @@ class BvhBuild {
 
   Hierarchy run() {
     if (refs_.empty()) return {};
-    context_.require_memory(refs_.size() * bytes_per_primitive(), "bvh");
+    require_memory();
     if (options_.builder == BvhBuilder::goldsmith_salmon && !is_optimised()) return insert();
     Tree tree = bottom_up_or_divided();
     if (!ends_in_single_primitives() && options_.arity == 2) return make_hierarchy(tree);
     if (is_optimised()) optimise(tree);
-    if (ends_in_single_primitives())
-      tree = limit_depth(std::move(tree), kBvhMaxDepth, cost_, context_);
-    return make_hierarchy(tree, Collapse(tree, collapse_rules(), context_));
+    if (ends_in_single_primitives()) return finish_bvh_tree(std::move(tree), options_, context_);
+    return make_hierarchy(tree, Collapse(tree, collapse_rules(options_), context_));
   }
 
  private:
   bool is_optimised() const { return options_.optimise != BvhOptimise::none; }
-  bool is_bottom_up() const {
-    return options_.builder == BvhBuilder::agglomerative || options_.builder == BvhBuilder::ploc;
-  }
   /// Leaves are made of such trees at the end.
-  bool ends_in_single_primitives() const { return is_optimised() || is_bottom_up(); }
+  bool ends_in_single_primitives() const {
+    return is_optimised() || options_.builder == BvhBuilder::agglomerative ||
+           options_.builder == BvhBuilder::ploc || options_.builder == BvhBuilder::spatial;
+  }
+
+  void require_memory() const {
+    const double growth = options_.builder == BvhBuilder::spatial ? 1.0 + options_.duplicates : 1.0;
+    const double references = growth * static_cast<double>(refs_.size());
+    context_.require_memory(static_cast<std::uint64_t>(references) * bytes_per_primitive(), "bvh");
+  }
 
   std::uint64_t bytes_per_primitive() const {
     std::uint64_t bytes = sizeof(PrimRef) + kTreeBytes;
@@ -71,9 +77,18 @@ class BvhBuild {
         return make_tree(build_ploc_tree(refs_, options_.radius, context_));
       case BvhBuilder::goldsmith_salmon:
         return make_binary(insert());
+      case BvhBuilder::spatial:
+        return cut();
       default:
         return divide();
     }
+  }
+
+  Tree cut() {
+    SpatialRules rules;
+    rules.cost = cost_, rules.growth = options_.duplicates, rules.max_depth = kBvhMaxDepth;
+    rules.object_bins = rules.spatial_bins = options_.bins;
+    return build_spatial_tree(source_, std::move(refs_), box_, rules, context_);
   }
 
   Tree divide() {
@@ -132,15 +147,6 @@ class BvhBuild {
     else
       reinsert_nodes(linked, {}, context_);
     tree = make_tree(linked);
-  }
-
-  CollapseRules collapse_rules() const {
-    CollapseRules rules;
-    rules.width = options_.arity;
-    rules.max_leaf = static_cast<std::size_t>(options_.leaf_size);
-    rules.node_cost = cost_.traverse, rules.leaf_cost = 0.0;
-    rules.primitive_cost = cost_.intersect;
-    return rules;
   }
 
   const PrimitiveSource& source_;

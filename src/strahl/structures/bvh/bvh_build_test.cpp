@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <strahl/base/rng.h>
 #include <strahl/structures/bvh/bvh_build.h>
 
 namespace strahl {
@@ -39,6 +40,8 @@ std::vector<BvhOptions> all_options(int leaf_size) {
   return all;
 }
 
+bool is_cut(const BvhOptions& options) { return options.builder == BvhBuilder::spatial; }
+
 std::string name_of(const BvhOptions& options) { return format_options(options); }
 
 TEST(BvhBuild, HoldsItsInvariantsWhateverTheBuilder) {
@@ -47,7 +50,8 @@ TEST(BvhBuild, HoldsItsInvariantsWhateverTheBuilder) {
     for (const BvhOptions& options : all_options(leaf_size)) {
       SCOPED_TRACE(name_of(options));
       const Hierarchy tree = build_bvh_hierarchy(source, options, {});
-      check_hierarchy(tree, source.refs, static_cast<std::size_t>(leaf_size), options.arity);
+      check_hierarchy(tree, source.refs, static_cast<std::size_t>(leaf_size), options.arity,
+                      is_cut(options));
       EXPECT_LE(tree.depth(), kBvhMaxDepth);
     }
 }
@@ -59,7 +63,7 @@ TEST(BvhBuild, MakesWideNodesOnlyWhereAsked) {
       options.arity = arity;
       SCOPED_TRACE(name_of(options));
       const Hierarchy tree = build_bvh_hierarchy(source, options, {});
-      check_hierarchy(tree, source.refs, 2, arity);
+      check_hierarchy(tree, source.refs, 2, arity, is_cut(options));
       std::uint32_t most = 0;
       for (const HierarchyNode& node : tree.nodes) most = std::max(most, node.children);
       EXPECT_GT(most, arity == 2 ? 1u : 2u);
@@ -73,7 +77,7 @@ TEST(BvhBuild, StaysWithinTheDepthBoundOnDegenerateInput) {
     for (const BvhOptions& options : all_options(1)) {
       SCOPED_TRACE(input.name + ", " + name_of(options));
       const Hierarchy tree = build_bvh_hierarchy(source, options, {});
-      check_hierarchy(tree, source.refs, 1, options.arity);
+      check_hierarchy(tree, source.refs, 1, options.arity, is_cut(options));
       EXPECT_LE(tree.depth(), kBvhMaxDepth);
     }
   }
@@ -106,6 +110,38 @@ TEST(BvhBuild, OptimisersDoNotRaiseTheCostOfSinglePrimitives) {
     if (i / 3 == static_cast<std::size_t>(BvhBuilder::goldsmith_salmon)) continue;
     EXPECT_LE(cost[i + 1], cost[i] * (1 + 1e-12)) << i;
     EXPECT_LE(cost[i + 2], cost[i] * (1 + 1e-12)) << i;
+  }
+}
+
+/// Long thin boxes along all axes, one of them a diagonal's.
+Refs sticks(std::size_t count, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<Aabb> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3d lo{rng.uniform(), rng.uniform(), rng.uniform()}, hi = lo + Vec3d::all(0.005);
+    hi[static_cast<int>(rng.below(3))] += rng.uniform(0.1, 0.6);
+    boxes.push_back({lo, hi});
+  }
+  return refs_of(boxes);
+}
+
+TEST(BvhBuild, CutsWithinTheBudgetAndOnlyWhereThatIsCheaper) {
+  const Boxes source(sticks(1000, 5));
+  BvhOptions options;
+  options.leaf_size = 1, options.optimise = BvhOptimise::reinsertion;
+  const double whole = build_bvh_hierarchy(source, options, {}).sah_cost({1.0, 1.0});
+  options.builder = BvhBuilder::spatial;
+  double before = 1.05 * whole;
+  for (const double duplicates : {0.0, 0.3, 2.0}) {
+    options.duplicates = duplicates;
+    const Hierarchy tree = build_bvh_hierarchy(source, options, {});
+    check_hierarchy(tree, source.refs, 1, 2, true);
+    const auto references = static_cast<double>(tree.references.size());
+    EXPECT_LE(references, 1000 * (1.0 + duplicates));
+    EXPECT_GE(references, 1000 * (1.0 + 0.5 * duplicates));
+    const double cost = tree.sah_cost({1.0, 1.0});
+    EXPECT_LT(cost, duplicates > 0.0 ? 0.98 * before : before) << duplicates;
+    before = cost;
   }
 }
 

@@ -14,6 +14,8 @@ namespace strahl {
 /// Points of a thing's surface whose hull nearly is the thing's: corners, points of rims and of
 /// spheres. bounds(i) not empty.
 std::vector<Vec3d> defining_points(const PrimitiveSource& source, std::uint32_t i);
+/// The same and, of a triangle or box, many inside: for what is in several leaves.
+std::vector<Vec3d> covering_points(const PrimitiveSource& source, std::uint32_t i);
 
 /// Reads the nodes in order: parents come first, so depths and parents are known when needed.
 template <class V>
@@ -21,10 +23,12 @@ class BvhChecker {
  public:
   using Node = BvhNode<V>;
 
-  BvhChecker(const BvhTree<V>& tree, const PrimitiveSource& source)
+  /// @param refers_once whether no primitive may be in two leaves
+  BvhChecker(const BvhTree<V>& tree, const PrimitiveSource& source, bool refers_once)
       : tree_(tree),
         source_(source),
-        seen_(source.size(), 0),
+        refers_once_(refers_once),
+        leaves_of_(source.size()),
         depth_(tree.nodes_.size(), kUnclaimed),
         parent_(tree.nodes_.size(), 0) {
     if (!depth_.empty()) depth_[0] = 0;
@@ -38,9 +42,7 @@ class BvhChecker {
       else
         check_children(i);
     }
-    for (std::uint32_t i = 0; i < source_.size(); ++i)
-      demand(seen_[i] == (source_.bounds(i).is_empty() ? 0u : 1u),
-             "a primitive is not in exactly one leaf");
+    for (std::uint32_t i = 0; i < source_.size(); ++i) check_primitive(i);
     check_report(tree_.report_);
   }
 
@@ -75,21 +77,32 @@ class BvhChecker {
            "references of a leaf do not ascend");
     demand(own.back() < source_.size(), "a reference is out of range");
     for (const std::uint32_t reference : own) {
-      check_volumes(node, reference);
-      ++seen_[reference];
+      demand(!source_.bounds(reference).is_empty(), "a leaf refers to what is never hit");
+      leaves_of_[reference].push_back(node);
     }
     ++leaves_, total_ += leaf.size(), deepest_ = std::max(deepest_, depth_[node]);
   }
 
-  /// That all volumes from a leaf up to the root enclose what the leaf refers to.
-  void check_volumes(std::size_t node, std::uint32_t reference) const {
-    demand(!source_.bounds(reference).is_empty(), "a leaf refers to what is never hit");
-    const std::vector<Vec3d> points = defining_points(source_, reference);
-    for (bool is_root = false; !is_root; node = parent_[node]) {
-      const V& volume = tree_.nodes_[node].volume;
-      for (const Vec3d& p : points)
-        demand(volume.contains(p), "a volume does not enclose a primitive");
-      is_root = node == 0;
+  /// That every point of a primitive is in a leaf that refers to it, and in all volumes above.
+  void check_primitive(std::uint32_t i) const {
+    const std::vector<std::size_t>& leaves = leaves_of_[i];
+    if (refers_once_)
+      demand(leaves.size() == (source_.bounds(i).is_empty() ? 0u : 1u),
+             "a primitive is not in exactly one leaf");
+    if (source_.bounds(i).is_empty()) return;
+    demand(!leaves.empty(), "a primitive is in no leaf");
+    const std::vector<Vec3d> points =
+        leaves.size() == 1 ? defining_points(source_, i) : covering_points(source_, i);
+    for (const Vec3d& p : points)
+      demand(std::any_of(leaves.begin(), leaves.end(),
+                         [&](std::size_t leaf) { return is_enclosed(p, leaf); }),
+             "a volume does not enclose a primitive");
+  }
+
+  bool is_enclosed(const Vec3d& p, std::size_t leaf) const {
+    for (std::size_t node = leaf;; node = parent_[node]) {
+      if (!tree_.nodes_[node].volume.contains(p)) return false;
+      if (node == 0) return true;
     }
   }
 
@@ -103,7 +116,8 @@ class BvhChecker {
 
   const BvhTree<V>& tree_;
   const PrimitiveSource& source_;
-  std::vector<std::uint32_t> seen_;  ///< leaves per primitive
+  bool refers_once_;
+  std::vector<std::vector<std::size_t>> leaves_of_;  ///< per primitive
   std::vector<int> depth_;
   std::vector<std::size_t> parent_;
   std::uint64_t leaves_ = 0, total_ = 0;

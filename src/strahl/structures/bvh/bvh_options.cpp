@@ -22,24 +22,29 @@ OptionTable<BvhOptions> option_fields(const BvhOptions*) {
   return {
       option("bv", &BvhOptions::bv, volume_words(),
              "bounding volume of the nodes; auto: of each the cheapest"),
-      option("builder", &BvhOptions::builder,
-             {{"scene_graph", BvhBuilder::scene_graph},
-              {"median_cyclic", BvhBuilder::median_cyclic},
-              {"median_longest", BvhBuilder::median_longest},
-              {"goldsmith_salmon", BvhBuilder::goldsmith_salmon},
-              {"sah_sweep", BvhBuilder::sah_sweep},
-              {"sah_binned", BvhBuilder::sah_binned},
-              {"agglomerative", BvhBuilder::agglomerative},
-              {"lbvh", BvhBuilder::lbvh},
-              {"ploc", BvhBuilder::ploc}},
-             "groups of the model; median cut, axes in turn or the longest; insertion; SAH, exact "
-             "or by bins; bottom-up by nearest pairs; Morton codes; neighbours on their curve"),
+      option(
+          "builder", &BvhOptions::builder,
+          {{"scene_graph", BvhBuilder::scene_graph},
+           {"median_cyclic", BvhBuilder::median_cyclic},
+           {"median_longest", BvhBuilder::median_longest},
+           {"goldsmith_salmon", BvhBuilder::goldsmith_salmon},
+           {"sah_sweep", BvhBuilder::sah_sweep},
+           {"sah_binned", BvhBuilder::sah_binned},
+           {"spatial", BvhBuilder::spatial},
+           {"agglomerative", BvhBuilder::agglomerative},
+           {"lbvh", BvhBuilder::lbvh},
+           {"ploc", BvhBuilder::ploc}},
+          "groups of the model; median cut, axes in turn or the longest; insertion; SAH, exact "
+          "or by bins, or by bins with cut primitives; bottom-up by nearest pairs; Morton codes; "
+          "neighbours on their curve"),
       option("optimise", &BvhOptions::optimise,
              {{"none", BvhOptimise::none},
               {"rotations", BvhOptimise::rotations},
               {"reinsertion", BvhOptimise::reinsertion}},
              "what is done to the tree afterwards"),
-      option("bins", &BvhOptions::bins, 2, 256, "bins per axis of sah_binned"),
+      option("bins", &BvhOptions::bins, 2, 256, "bins per axis of sah_binned and spatial"),
+      option("duplicates", &BvhOptions::duplicates, 0.0, 8.0,
+             "spatial: references there may be more than primitives, per primitive"),
       option("radius", &BvhOptions::radius, 1, 256, "neighbours on either side that ploc looks at"),
       option("insert_search", &BvhOptions::insert_search,
              {{"growth", InsertSearch::growth},
@@ -65,6 +70,8 @@ OptionTable<BvhOptions> option_fields(const BvhOptions*) {
               {"ordered", BvhTraversal::ordered},
               {"heap", BvhTraversal::heap}},
              "order of visits: the tree's, nearest child first, or nearest of all from a heap"),
+      option("rebuild_factor", &BvhOptions::rebuild_factor, 1.0, 1000.0,
+             "when things move: built anew where fitting makes the SAH cost this times as high"),
   };
 }
 

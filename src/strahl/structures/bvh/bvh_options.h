@@ -33,6 +33,7 @@ enum class BvhBuilder {
   goldsmith_salmon,
   sah_sweep,
   sah_binned,
+  spatial,
   agglomerative,
   lbvh,
   ploc
@@ -45,6 +46,7 @@ struct BvhOptions {
   BvhBuilder builder = BvhBuilder::sah_binned;
   BvhOptimise optimise = BvhOptimise::none;
   int bins = 32;
+  double duplicates = 0.3;
   int radius = 16;
   InsertSearch insert_search = InsertSearch::local;
   InsertOrder insert_order = InsertOrder::file;
@@ -55,6 +57,7 @@ struct BvhOptions {
   double traverse_cost = 1.0;
   double intersect_cost = 1.0;
   BvhTraversal traversal = BvhTraversal::ordered;
+  double rebuild_factor = 1.5;
 };
 
 OptionTable<BvhOptions> option_fields(const BvhOptions*);

@@ -48,7 +48,8 @@ class BvhTree final : public VolumeTree {
     trace_in(traversal, ray, leaves, counters);
   }
   const BuildReport& report() const override { return report_; }
-  void validate(const PrimitiveSource& source) const override;
+  Hierarchy hierarchy() const override;
+  void validate(const PrimitiveSource& source, bool refers_once) const override;
   void hash_into(Hash64& hash) const override;
 
   const std::vector<Node>& nodes() const { return nodes_; }

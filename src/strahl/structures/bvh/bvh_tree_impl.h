@@ -75,8 +75,20 @@ void BvhTree<V>::hash_into(Hash64& hash) const {
 }
 
 template <class V>
-void BvhTree<V>::validate(const PrimitiveSource& source) const {
-  BvhChecker<V>(*this, source).run();
+Hierarchy BvhTree<V>::hierarchy() const {
+  Hierarchy out;
+  out.nodes.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    const std::uint32_t size = node.size();
+    out.nodes.push_back({{}, node.first, node.is_leaf() ? 0 : size, node.is_leaf() ? size : 0});
+  }
+  out.references = references_;
+  return out;
+}
+
+template <class V>
+void BvhTree<V>::validate(const PrimitiveSource& source, bool refers_once) const {
+  BvhChecker<V>(*this, source, refers_once).run();
 }
 
 }  // namespace strahl

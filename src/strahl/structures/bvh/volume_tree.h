@@ -3,6 +3,7 @@
 
 #include <strahl/base/hash.h>
 #include <strahl/build/build_report.h>
+#include <strahl/build/hierarchy.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/query/counters.h>
 #include <strahl/structures/bvh/bvh_options.h>
@@ -24,7 +25,10 @@ class VolumeTree {
   virtual void trace(BvhTraversal traversal, const PreparedRay& ray, LeafQuery& leaves,
                      Counters& counters) const = 0;
   virtual const BuildReport& report() const = 0;
-  virtual void validate(const PrimitiveSource& source) const = 0;
+  /// Its nodes and references without boxes.
+  virtual Hierarchy hierarchy() const = 0;
+  /// @param refers_once whether no primitive may be in two leaves
+  virtual void validate(const PrimitiveSource& source, bool refers_once) const = 0;
   virtual void hash_into(Hash64& hash) const = 0;
 };
 

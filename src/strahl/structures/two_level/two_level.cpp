@@ -2,6 +2,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <strahl/base/error.h>
 #include <strahl/build/sah.h>
 #include <strahl/structures/two_level/run_level.h>
 #include <strahl/structures/two_level/shared_build.h>
@@ -72,6 +73,8 @@ std::unique_ptr<Level> TwoLevel::as_level(const PrimitiveSource& source, const O
 }
 
 void TwoLevel::move(const Scene& pose, const BuildContext& context) {
+  if (!pose.is_pose_of(instances_.scene()))
+    throw Error(ErrorCode::unsupported, "moved vertices cannot be followed; bvh can", kName);
   const InstanceSource moved(pose, instances_);
   const BuildReport bottoms = context.memory_limit == UINT64_MAX ? BuildReport() : sum_of(bottoms_);
   top_ = make_top(moved, after_owning(context, table_bytes() + bottoms.bytes));

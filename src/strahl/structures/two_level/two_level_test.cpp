@@ -156,7 +156,7 @@ TEST(TwoLevel, MovesOnlyToPosesOfItsScene) {
   const auto moving = build(scene(), "two_level");
   EXPECT_THROW(moving->update(fresh(1.0), {}), Error);
   expect_same_hits(*moving, *build(scene(), "bvh"));
-  EXPECT_THROW(build(scene(), "bvh")->update(pose(1.0), {}), Error);
+  EXPECT_THROW(build(scene(), "kd_tree")->update(pose(1.0), {}), Error);
 }
 
 TEST(TwoLevel, AFailedMoveChangesNothing) {
