@@ -53,5 +53,18 @@ TEST(Hierarchy, ARootMayBeALeafWithAscendingReferences) {
   EXPECT_EQ(made.depth(), 0);
 }
 
+TEST(Hierarchy, PartsOfOneThingThatMeetInALeafAreOneReference) {
+  Tree tree;
+  const Aabb left{{0, 0, 0}, {1, 1, 1}}, right{{1, 0, 0}, {2, 1, 1}};
+  tree.nodes = {{Aabb::join(left, right), 2, 0, 0, 0}, {left, 0, 0, 1, 0}, {right, 0, 1, 1, 0}};
+  tree.references = {5, 5};
+  CollapseRules rules;
+  rules.width = 2, rules.max_leaf = 4;
+  const Hierarchy hierarchy = make_hierarchy(tree, Collapse(tree, rules, {}));
+  ASSERT_EQ(hierarchy.nodes.size(), 1u);
+  EXPECT_EQ(hierarchy.nodes[0].count, 1u);
+  EXPECT_EQ(hierarchy.references, std::vector<std::uint32_t>{5});
+}
+
 }  // namespace
 }  // namespace strahl
