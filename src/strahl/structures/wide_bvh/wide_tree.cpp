@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <new>
 #ifdef __linux__
@@ -11,13 +13,13 @@ namespace strahl {
 WideArena::WideArena(std::uint64_t bytes) : size_(bytes) {
   constexpr std::uint64_t kLine = 64, kLargePage = std::uint64_t{1} << 21;
   const std::uint64_t align = bytes >= kLargePage ? kLargePage : kLine;
-  const std::uint64_t rounded = (bytes + kLine - 1) / kLine * kLine;
-  data_.reset(static_cast<std::byte*>(std::aligned_alloc(align, rounded)));
-  if (!data_) throw std::bad_alloc();
+  void* data = nullptr;  // std::aligned_alloc would want whole pages
+  if (posix_memalign(&data, align, std::max(bytes, kLine)) != 0) throw std::bad_alloc();
+  data_.reset(static_cast<std::byte*>(data));
 #ifdef __linux__
-  if (align == kLargePage) madvise(data_.get(), rounded, MADV_HUGEPAGE);  // a wish
+  if (align == kLargePage) madvise(data, bytes, MADV_HUGEPAGE);  // a wish
 #endif
-  std::memset(data_.get(), 0, rounded);
+  std::memset(data, 0, bytes);
 }
 
 }  // namespace strahl
