@@ -20,7 +20,7 @@ TEST_F(AdviseCommand, NamesTheFastestAndTheSmallest) {
 }
 
 TEST_F(AdviseCommand, PrintsATable) {
-  const Finished finished = run("advise gen:tetra:4 --structures grid,bvh,leaf_size=2 --rays 1000");
+  const Finished finished = run("advise gen:tetra:4 --structures grid,bvh:leaf_size=2 --rays 1000");
   ASSERT_EQ(finished.code, 0) << finished.err;
   EXPECT_NE(finished.out.find("bvh:leaf_size=2 "), std::string::npos) << finished.out;
   EXPECT_NE(finished.out.find("fastest for 1000 rays (random): "), std::string::npos);
@@ -42,7 +42,8 @@ TEST_F(AdviseCommand, AutoAnswersWithTheSameBitsEverywhere) {
   EXPECT_NE(chosen.json()["structure"], "auto");
   EXPECT_NE(chosen.err.find("strahl: auto: "), std::string::npos) << chosen.err;
   for (const char* command :
-       {"info gen:balls:2 --structure auto", "render gen:balls:2 --size 8x8 --structure auto",
+       {"info gen:balls:2 --structure auto",
+        "render gen:balls:2 --size 8x8 --structure auto -o auto.png",
         "compare gen:balls:2 --structures auto,brute_force --rays 100 --repeat 1 -o out"})
     EXPECT_EQ(run(command).code, 0) << command;
 }
