@@ -49,7 +49,8 @@ TEST_F(CompareCommand, WritesTheSameResultsAsJsonCsvAndMarkdown) {
 TEST_F(CompareCommand, RanksStructuresOverScenes) {
   const Finished finished = run("compare gen:balls:1 gen:tetra:3" + std::string(kSmall));
   ASSERT_EQ(finished.code, 0) << finished.err;
-  for (const auto& workload : finished.json()["summary"]["workloads"]) {
+  const auto json = finished.json();
+  for (const auto& workload : json["summary"]["workloads"]) {
     double ranks = 0.0;
     int wins = 0;
     for (const auto& structure : workload["structures"]) {
