@@ -33,6 +33,7 @@ struct Hierarchy {
   std::vector<std::uint32_t> references;
 
   std::span<const HierarchyNode> children(const HierarchyNode& node) const {
+    if (node.children == 0) return {};  // `first` of a leaf is no node
     return std::span(nodes).subspan(node.first, node.children);
   }
   /// Edges from the root to the deepest leaf.
