@@ -45,8 +45,9 @@ concept Moves = requires(S& s, const Scene& pose, const BuildContext& context) {
   s.move(pose, context);
 };
 
-/// S has kName, kTitle, kRefersOnce, Options, a constructor from (PrimitiveSource, Options,
-/// BuildContext), trace(), report(), validate(source), hash_into(hash).
+/// S has kName, kTitle, kRefersOnce (or refers_once(), where options decide), Options, a
+/// constructor from (PrimitiveSource, Options, BuildContext), trace(), report(), validate(source),
+/// hash_into(hash).
 template <class S>
 class Erased final : public Accelerator {
  public:
@@ -193,6 +194,14 @@ class Erased final : public Accelerator {
     pulse.beat(job.end);
   }
 
+  /// Whether no primitive is met twice by a ray.
+  bool refers_once() const {
+    if constexpr (requires { structure_.refers_once(); })
+      return structure_.refers_once();
+    else
+      return S::kRefersOnce;
+  }
+
   template <class C>
   void collect(const SpanJob& job, C& counters, BatchReport& report) const {
     SceneVisitor prims(*scene_);
@@ -202,7 +211,7 @@ class Erased final : public Accelerator {
       hits.clear();
       CollectHits query(ray, filter, hits);
       trace(prims, ray, query, counters);
-      if (!S::kRefersOnce || job.all != nullptr) make_unique(hits);
+      if (!refers_once() || job.all != nullptr) make_unique(hits);
       job.counts[i] = static_cast<std::uint32_t>(hits.size());
       if (job.all != nullptr) job.all->insert(job.all->end(), hits.begin(), hits.end());
     });
@@ -217,7 +226,7 @@ class Erased final : public Accelerator {
       hits.clear();
       InsideTest query(ray, filter, hits);
       trace(prims, ray, query, counters);
-      if constexpr (!S::kRefersOnce) make_unique(hits);
+      if (!refers_once()) make_unique(hits);
       if (query.is_on_surface)
         job.sides[i] = Side::on_surface;
       else if (hits.size() % 2 == 1)

@@ -44,7 +44,6 @@ class Bvh {
   void move(const Scene& scene, const BuildContext& context) { refit(scene, context); }
   /// How often it was fitted since it was last built.
   std::uint64_t refits() const { return refits_; }
-  static constexpr bool kRefersOnce = false;  ///< whatever the options
   /// Whether no primitive is in two leaves.
   bool refers_once() const { return refers_once_; }
 
