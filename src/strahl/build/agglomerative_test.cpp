@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <tests/support/bundles.h>
+#include <tests/support/tree_areas.h>
 #include <tests/support/tree_cases.h>
 #include <vector>
 
@@ -38,14 +39,6 @@ std::vector<double> greedy_areas(const Refs& refs) {
     active[a].extend(active[b]);
     active.erase(active.begin() + static_cast<std::ptrdiff_t>(b));
   }
-  std::sort(areas.begin(), areas.end());
-  return areas;
-}
-
-std::vector<double> areas_of(const LinkedTree& tree) {
-  std::vector<double> areas;
-  for (const LinkedNode& node : tree.nodes)
-    if (!node.is_leaf()) areas.push_back(node.box.half_area());
   std::sort(areas.begin(), areas.end());
   return areas;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <tests/support/bundles.h>
+#include <tests/support/tree_areas.h>
 #include <tests/support/tree_cases.h>
 #include <vector>
 
@@ -110,15 +111,6 @@ TEST(Optimise, ReinsertionEndsWhereNoMoveHelps) {
     reinsert_nodes(tree, {100, 0.0}, {});
     EXPECT_GE(least_after_one_move(tree), (1.0 - 1e-12) * tree.inner_area());
   }
-}
-
-/// The boxes of all inner nodes, by what is below them.
-std::vector<double> areas_of(const LinkedTree& tree) {
-  std::vector<double> areas;
-  for (const LinkedNode& node : tree.nodes)
-    if (!node.is_leaf()) areas.push_back(node.box.half_area());
-  std::sort(areas.begin(), areas.end());
-  return areas;
 }
 
 TEST(Optimise, LeavesAloneWhatIsBestAlready) {

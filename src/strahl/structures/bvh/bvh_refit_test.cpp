@@ -1,6 +1,7 @@
 // Hierarchies that follow their things: what stays, when they are built anew, what failures leave.
 #include <cmath>
 #include <string>
+#include <tests/support/box_source.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,16 +15,7 @@
 namespace strahl {
 namespace {
 
-/// Boxes and nothing else.
-struct Boxes final : PrimitiveSource {
-  std::vector<Aabb> boxes;
-
-  std::uint32_t size() const override { return static_cast<std::uint32_t>(boxes.size()); }
-  Aabb bounds(std::uint32_t i) const override { return boxes[i]; }
-  Aabb clip(std::uint32_t i, const Aabb& box) const override {
-    return Aabb::intersection(boxes[i], box);
-  }
-};
+using test::Boxes;
 
 Boxes random_boxes(std::size_t count) {
   Rng rng(1);

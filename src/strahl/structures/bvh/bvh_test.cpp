@@ -2,6 +2,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <tests/support/box_source.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +13,8 @@
 namespace strahl {
 
 namespace {
+
+using test::Boxes;
 
 /// Reaches into a finished hierarchy of boxes.
 class BoxBreaker {
@@ -43,17 +46,6 @@ class BoxBreaker {
   std::vector<std::uint32_t>& references;
   BuildReport& report;
   SahCost& cost;
-};
-
-/// Boxes and nothing else.
-struct Boxes final : PrimitiveSource {
-  std::vector<Aabb> boxes;
-
-  std::uint32_t size() const override { return static_cast<std::uint32_t>(boxes.size()); }
-  Aabb bounds(std::uint32_t i) const override { return boxes[i]; }
-  Aabb clip(std::uint32_t i, const Aabb& box) const override {
-    return Aabb::intersection(boxes[i], box);
-  }
 };
 
 Boxes random_boxes(std::size_t count, std::uint64_t seed) {
