@@ -2,8 +2,10 @@
 // triangles beside the sweep build of bvh. Processor seconds of one thread, least of the runs.
 //
 //   kd_build_bench [--growth] [--million] [--largest P] [--runs N]
+//   kd_build_bench --identical SCENE...
 //   kd_build_bench --rules SCENE [SPEC...]
 // One part only, scenes of 2^P triangles at most (default 21), N runs of scenes up to 2^17 (5).
+// Or whether the three make the same tree of each scene of 20,000 primitives at most.
 // Or the expected cost, size, and steps and tests per random line of trees by other rules.
 //
 // Exit status: 1 when two builders make different trees, 2 for a bad command line.
@@ -28,6 +30,9 @@ using namespace strahl;
 using ScenePtr = std::shared_ptr<const Scene>;
 
 constexpr int kLargestNaive = 14;
+constexpr std::uint32_t kLargestIdentical = 20000;
+const std::vector<std::string> kExactBuilders{"kd_tree:split=sah_sweep", "kd_tree:split=sah_sort",
+                                              "kd_tree:split=sah_naive"};
 
 struct Limits {
   int largest = 21;  ///< power of two: triangles
@@ -109,15 +114,38 @@ double slope(const std::vector<std::pair<double, double>>& points) {
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
+bool make_one_tree(const std::vector<Built>& built) {
+  return std::all_of(built.begin(), built.end(),
+                     [&](const Built& b) { return b.hash == built.front().hash; });
+}
+
+/// Whether the exact builders make one tree of every scene that is not too large.
+bool print_identical(const std::vector<std::string>& names) {
+  bool agree = true;
+  std::printf("%10s %10s %10s %10s %10s  %s\n", "primitives", "sah_sweep", "sah_sort", "sah_naive",
+              "same tree", "scene");
+  for (const std::string& name : names) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    if (scene->size() > kLargestIdentical) continue;
+    const auto built = build_all(scene, kExactBuilders, 1);
+    const bool is_one = make_one_tree(built);
+    agree = agree && is_one;
+    std::printf("%10u %10.3f %10.3f %10.3f %10s  %s\n", scene->size(), built[0].seconds,
+                built[1].seconds, built[2].seconds, is_one ? "yes" : "NO", name.c_str());
+    std::fflush(stdout);
+  }
+  return agree;
+}
+
 bool print_growth(const Limits& limits) {
-  const std::vector<std::string> specs{"kd_tree:split=sah_sweep", "kd_tree:split=sah_sort",
-                                       "kd_tree:split=sah_naive"};
   std::vector<std::vector<std::pair<double, double>>> points(3);
   bool agree = true;
   std::printf("%10s %12s %12s %12s\n", "triangles", "sah_sweep", "sah_sort", "sah_naive");
   for (int power = 10; power <= limits.largest; ++power) {
     const auto specs_here =
-        power <= kLargestNaive ? specs : std::vector<std::string>{specs.begin(), specs.begin() + 2};
+        power <= kLargestNaive
+            ? kExactBuilders
+            : std::vector<std::string>{kExactBuilders.begin(), kExactBuilders.begin() + 2};
     const bool is_long = power > 17;
     const auto built = build_all(surface(power), specs_here, is_long ? 1 : limits.runs);
     const double size = std::ldexp(1.0, power);
@@ -125,8 +153,8 @@ bool print_growth(const Limits& limits) {
     for (std::size_t i = 0; i < built.size(); ++i) {
       std::printf(" %12.4f", built[i].seconds);
       points[i].emplace_back(size, built[i].seconds);
-      agree = agree && built[i].hash == built[0].hash;
     }
+    agree = agree && make_one_tree(built);
     std::printf("\n");
     std::fflush(stdout);
   }
@@ -222,6 +250,8 @@ int main(int argc, char** argv) {
     print_rules(argv[2], {argv + 3, argv + argc});
     return 0;
   }
+  if (argc > 2 && std::strcmp(argv[1], "--identical") == 0)
+    return print_identical({argv + 2, argv + argc}) ? 0 : 1;
   Limits limits;
   if (!parse(argc, argv, limits)) {
     std::fprintf(stderr, "usage: kd_build_bench [--growth] [--million] [--largest P] [--runs N]\n");

@@ -1,5 +1,5 @@
 // strahl_leaks - prints how many rays leak out of a closed mesh, are counted more than once or end
-// on the wrong side, for every structure and, where it is installed, for Embree 3.
+// on the wrong side, for every structure or one SPEC and, where it is installed, for Embree 3.
 //
 // Exit status: 1 when any structure of strahl gets any ray wrong, 2 for a bad command line.
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <cstring>
 #include <exception>
 #include <string>
+#include <vector>
 #ifdef STRAHL_HAVE_EMBREE
 #include <bench/leaks_embree.h>
 #endif
@@ -21,12 +22,20 @@ constexpr std::size_t kBruteForceRays = 10000;
 struct Options {
   std::size_t rays = 1000000;
   int threads = 1;
+  std::vector<std::string> specs;  ///< to test; all structures unless one is asked for
   bool is_json = false;
 };
 
+std::vector<std::string> names_of_structures() {
+  std::vector<std::string> names;
+  for (const StructureEntry& entry : all_structures()) names.emplace_back(entry.name);
+  return names;
+}
+
 /// Throws Error{usage}.
 Options parse(int argc, char** argv) {
-  const std::string usage = "usage: strahl_leaks [--rays N] [--threads N] [--json]";
+  const std::string usage =
+      "usage: strahl_leaks [--rays N] [--threads N] [--structure SPEC] [--json]";
   Options options;
   const auto number = [&](int i, auto& value) {
     const char* end = i < argc ? argv[i] + std::strlen(argv[i]) : nullptr;
@@ -41,9 +50,12 @@ Options parse(int argc, char** argv) {
       number(++i, options.rays);
     else if (argument == "--threads")
       number(++i, options.threads);
+    else if (argument == "--structure" && i + 1 < argc)
+      options.specs = {argv[++i]};
     else
       throw Error(ErrorCode::usage, "unknown option\n" + usage, argument);
   }
+  if (options.specs.empty()) options.specs = names_of_structures();
   return options;
 }
 
@@ -89,13 +101,13 @@ bool test_sphere(const Sphere& sphere, const Options& options, Table& table) {
   BatchContext context;
   context.context.executor = Executor::with_threads(options.threads);
   bool is_clean = true;
-  for (const StructureEntry& entry : all_structures()) {
-    const auto accelerator = build(scene, entry.name);
+  for (const std::string& spec : options.specs) {
+    const auto accelerator = build(scene, spec);
     const bool is_brute = accelerator->spec() == "brute_force";
     for (const Aim aim : kAims) {
       const std::size_t count = is_brute ? std::min(options.rays, kBruteForceRays) : options.rays;
       const Tally sum = tally(*accelerator, make_rays(sphere, mesh, aim, count), context);
-      table.row(entry.name, sphere, aim, sum);
+      table.row(spec, sphere, aim, sum);
       is_clean = is_clean && sum.is_clean();
     }
   }
