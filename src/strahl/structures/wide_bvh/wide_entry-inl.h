@@ -142,10 +142,11 @@ WideEntry find_entry(const WideTree& tree, const WideRays& rays, std::uint64_t w
     if (entry.count - 1 + found > WideEntry::kMost) return entry;
     alignas(64) float enter[W];
     hn::Store(hits.enter[0], typename WideLanes<W>::D(), enter);
-    const std::uint64_t slots = wide_slots(hits.bits, beam.signs());
+    const std::uint32_t backward = (beam.signs() * (W / 8)) ^ (W - 1);
+    std::uint32_t farthest_first = visiting_order<W>(hits.bits, backward);
     --entry.count;
-    for (std::size_t i = 0; i < found; ++i, ++entry.count) {
-      const std::size_t slot = slots >> (8 * i) & 7u;
+    for (; farthest_first != 0; farthest_first &= farthest_first - 1, ++entry.count) {
+      const auto slot = static_cast<std::uint32_t>(__builtin_ctz(farthest_first)) ^ backward;
       entry.enter[entry.count] = enter[slot];
       entry.ids[entry.count] = child_row(node, W)[slot];
     }

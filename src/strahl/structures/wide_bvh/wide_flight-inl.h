@@ -21,10 +21,6 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
-/// Whether nodes of W children fill one register, which the flight's steps need.
-template <int W>
-inline constexpr bool kCanFly = W == 8 && WideLanes<W>::kParts == 1;
-
 template <int W, WideMode M>
 class Flight {
  public:
@@ -96,7 +92,7 @@ class Flight {
       typename NodeTest<W>::Hits hits;
       NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper_[ray]), hits);
       std::size_t top = top_[ray];
-      const WideId next = stacks.exchange(child_row(at, W), hits, rays.signs[ray], top);
+      const WideId next = stacks.exchange(child_row(at, W), hits, rays.signs[ray] * (W / 8), top);
       top_[ray] = top;
       go_to(ray, next, base, n);
     }

@@ -31,7 +31,7 @@ void add_mode(WideKernel& kernel) {
 
 template <WideMode M, int W>
 void add_flight(WideKernel& kernel) {
-  if constexpr (kCanFly<W>) kernel.fly[static_cast<std::size_t>(M)][W == 16] = &fly<W, M>;
+  if constexpr (kSortsAtOnce<W>) kernel.fly[static_cast<std::size_t>(M)][W == 16] = &fly<W, M>;
 }
 
 WideKernel make_kernel(const char* isa) {
@@ -42,6 +42,7 @@ WideKernel make_kernel(const char* isa) {
   add_mode<WideMode::any>(kernel);
   add_mode<WideMode::each>(kernel);
   add_flight<WideMode::closest, 8>(kernel), add_flight<WideMode::any, 8>(kernel);
+  add_flight<WideMode::closest, 16>(kernel), add_flight<WideMode::any, 16>(kernel);
   return kernel;
 }
 

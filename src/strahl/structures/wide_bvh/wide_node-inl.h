@@ -40,6 +40,10 @@ struct WideLanes {
 /// As an integer; Highway's own way goes through memory.
 template <class D, class M>
 HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+#if HWY_TARGET == HWY_AVX3
+  (void)d;
+  return static_cast<std::uint32_t>(mask.raw);
+#else
 #if HWY_TARGET == HWY_AVX2
   if constexpr (hn::MaxLanes(D()) == 8 && std::is_same_v<hn::TFromD<D>, float>)
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hn::VecFromMask(d, mask).raw));
@@ -48,7 +52,23 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   hn::StoreMaskBits(d, mask, bytes);
   if (hn::MaxLanes(d) <= 8) return bytes[0];
   return static_cast<std::uint32_t>(bytes[0] | bytes[1] << 8);
+#endif
 }
+
+/// Whether registers of 16 lanes are put into order by a permutation and a compression.
+#if HWY_TARGET == HWY_AVX3
+inline constexpr bool kCompresses = true;
+#else
+inline constexpr bool kCompresses = false;
+#endif
+
+#if HWY_TARGET == HWY_AVX3
+/// The opposite of bits_of().
+template <class D>
+HWY_INLINE hn::Mask<D> mask_of(D, std::uint32_t bits) {
+  return hn::Mask<D>{static_cast<decltype(hn::Mask<D>::raw)>(bits)};
+}
+#endif
 
 /// A ray's constants in registers.
 template <int W>

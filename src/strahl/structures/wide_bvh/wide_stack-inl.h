@@ -23,6 +23,10 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
+/// Whether the children of a node are put into order by permutations of single registers.
+template <int W>
+inline constexpr bool kSortsAtOnce = WideLanes<W>::kParts == 1 && (W == 8 || kCompresses);
+
 template <int W>
 class WideStack {
  public:
@@ -43,15 +47,12 @@ class WideStack {
   /// branch, for nodes of one register.
   HWY_INLINE WideId exchange(const WideId* children, const typename NodeTest<W>::Hits& hits,
                              std::uint32_t order, std::size_t& count) {
-    const std::uint64_t& slots = wide_slots(hits.bits, order);
-    const auto index = lanes_from(slots);
-    // Of ids_[count - 1] and children[slots >> 56], without letting the compiler see a choice.
+    const std::uint32_t slot = store_farthest_first(children, hits, order, count);
+    // Of ids_[count - 1] and children[slot], without letting the compiler see a choice.
     const std::uintptr_t waits = reinterpret_cast<std::uintptr_t>(ids_ + count - 1);
-    const std::uintptr_t child = reinterpret_cast<std::uintptr_t>(children + (slots >> 56));
+    const std::uintptr_t child = reinterpret_cast<std::uintptr_t>(children + slot);
     const std::uintptr_t is_hit = -static_cast<std::uintptr_t>(hits.bits != 0);
     const WideId id = *reinterpret_cast<const WideId*>(waits ^ ((waits ^ child) & is_hit));
-    hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
-    hn::StoreU(permuted(hn::LoadU(DU(), children), index), DU(), ids_ + count);
     count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
     return id;
   }
@@ -60,8 +61,9 @@ class WideStack {
   /// @param order the ray's signs, for 16 slots times 2
   HWY_INLINE WideId push(const WideId* children, const typename NodeTest<W>::Hits& hits,
                          std::uint32_t order, std::size_t& count) {
-    if constexpr (W == 8 && L::kParts == 1)
-      return push_permuted(children, hits, order, count);
+    // A ray on its own waits for what 16 lanes take to be compressed.
+    if constexpr (kSortsAtOnce<W> && W == 8)
+      return push_at_once(children, hits, order, count);
     else
       return push_one_by_one(children, hits, order, count);
   }
@@ -103,14 +105,34 @@ class WideStack {
     return hn::TableLookupLanes(v, hn::IndicesFromVec(d, index));
   }
 
-  HWY_INLINE WideId push_permuted(const WideId* children, const typename NodeTest<W>::Hits& hits,
-                                  std::uint32_t order, std::size_t& count) {
+  /// Writes the children hit behind what waits, whatever their number.
+  /// @return the slot of the nearest, which was written last; any slot where none is hit
+  HWY_INLINE std::uint32_t store_farthest_first(const WideId* children,
+                                                const typename NodeTest<W>::Hits& hits,
+                                                std::uint32_t order, std::size_t count) {
+    const auto ids = hn::LoadU(DU(), children);
+#if HWY_TARGET == HWY_AVX3
+    if constexpr (W == 16) {
+      const std::uint32_t backward = order ^ 15u, bits = visiting_order<W>(hits.bits, backward);
+      const auto index = hn::Xor(hn::Iota(DU(), 0), hn::Set(DU(), backward));
+      const auto mask = mask_of(D(), bits);
+      hn::StoreU(hn::Compress(permuted(hits.enter[0], index), mask), D(), enter_ + count);
+      hn::StoreU(hn::Compress(permuted(ids, index), mask_of(DU(), bits)), DU(), ids_ + count);
+      return (31u - static_cast<std::uint32_t>(__builtin_clz(bits | 1u))) ^ backward;
+    }
+#endif
     const std::uint64_t& slots = wide_slots(hits.bits, order);
     const auto index = lanes_from(slots);
     hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
-    hn::StoreU(permuted(hn::LoadU(DU(), children), index), DU(), ids_ + count);
+    hn::StoreU(permuted(ids, index), DU(), ids_ + count);
+    return static_cast<std::uint32_t>(slots >> 56);
+  }
+
+  HWY_INLINE WideId push_at_once(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                                 std::uint32_t order, std::size_t& count) {
+    const std::uint32_t slot = store_farthest_first(children, hits, order, count);
     count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
-    return children[slots >> 56];
+    return children[slot];
   }
 
   HWY_INLINE WideId push_one_by_one(const WideId* children, const typename NodeTest<W>::Hits& hits,
