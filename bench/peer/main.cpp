@@ -32,6 +32,7 @@ struct Options {
   std::vector<std::string> specs{"wide_bvh"}, scenes;
   int size = 512, repeat = 7;
   bool best_peer = false;
+  std::string workload;  ///< the only one; all where empty
 };
 
 bool is_peer(std::string_view name) { return name == "single" || name == "best"; }
@@ -40,7 +41,7 @@ bool is_peer(std::string_view name) { return name == "single" || name == "best";
 Options parse(int argc, char** argv) {
   const std::string usage =
       "usage: strahl_bench_peer [--peer single|best] [--spec SPEC,...] [--size N] [--repeat N] "
-      "SCENE...";
+      "[--workload NAME] SCENE...";
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -54,6 +55,8 @@ Options parse(int argc, char** argv) {
       number(options.size);
     else if (argument == "--repeat")
       number(options.repeat);
+    else if (argument == "--workload" && i + 1 < argc)
+      options.workload = argv[++i];
     else if (argument == "--spec" && i + 1 < argc)
       options.specs = split_specs(argv[++i]);
     else if (argument == "--peer" && i + 1 < argc && is_peer(argv[i + 1]))
@@ -160,6 +163,7 @@ void race(const std::string& name, const Options& options, Ratios& all) {
   const WorkloadOptions wanted{default_view(*scene, options.size, options.size), count, 1};
   for (const WorkloadKind kind : kAllWorkloads) {
     if (kind == WorkloadKind::whitted) continue;  // asks for both kinds of hits
+    if (!options.workload.empty() && options.workload != name_of(kind)) continue;
     const Workload workload = make_workload(kind, *built.front(), wanted);
     const bool is_any = workload.closest.empty();
     const std::vector<FloatRay> rays = float_rays(is_any ? workload.any : workload.closest);

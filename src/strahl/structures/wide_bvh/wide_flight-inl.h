@@ -14,7 +14,6 @@
 #define STRAHL_WIDE_FLIGHT_INL_H_
 #endif
 
-#include <strahl/structures/wide_bvh/wide_entry-inl.h>
 #include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -30,16 +29,17 @@ class Flight {
         room_(wide_stack_room(W, job.tree.depth)),
         stacks_(job.room, reinterpret_cast<WideId*>(job.room + kWideBlock * room_)) {}
 
-  void run(std::uint64_t rays) {
-    if (rays == 0) return;
-    const WideEntry entry = find_entry<W>(job_.tree, job_.rays, rays);
-    if (entry.count == 0) return;
+  /// These rays through all that lies below a node or block. Not to be called for none.
+  /// @return bits of those whose traversal is over
+  std::uint64_t run(std::uint64_t rays, WideId from) {
+    ended_ = 0;
     for (; rays != 0; rays &= rays - 1)
-      start(static_cast<std::uint32_t>(__builtin_ctzll(rays)), entry);
+      start(static_cast<std::uint32_t>(__builtin_ctzll(rays)), from);
     while (at_nodes_ + at_leaves_ > 0) {
       while (at_nodes_ > 0 && at_leaves_ < kManyLeaves) visit_nodes();
       visit_leaves();
     }
+    return ended_;
   }
 
  private:
@@ -60,17 +60,14 @@ class Flight {
     std::uint32_t nodes, leaves;
   };
 
-  HWY_INLINE void start(std::uint32_t ray, const WideEntry& entry) {
-    std::size_t top = ray * room_;
-    stacks_.put(top++, -std::numeric_limits<float>::infinity(), kBottom);
-    for (std::size_t i = 0; i < entry.count - 1; ++i)
-      stacks_.put(top++, entry.enter[i], entry.ids[i]);
-    top_[ray] = top, upper_[ray] = job_.answers[ray].upper;
-    const WideId first = entry.ids[entry.count - 1];
-    if (is_leaf(first))
-      leaves_[at_leaves_++] = {ray, first};
+  HWY_INLINE void start(std::uint32_t ray, WideId from) {
+    const std::size_t bottom = ray * room_;
+    stacks_.put(bottom, -std::numeric_limits<float>::infinity(), kBottom);
+    top_[ray] = bottom + 1, upper_[ray] = job_.answers[ray].upper;
+    if (is_leaf(from))
+      leaves_[at_leaves_++] = {ray, from};
     else
-      nodes_[at_nodes_++] = {ray, first};
+      nodes_[at_nodes_++] = {ray, from};
   }
 
   /// Into the list it belongs to; into none when it is at its end.
@@ -109,7 +106,10 @@ class Flight {
       typename LeafTest<W>::Values values;
       leaf_test.test(at, lanes_of(id), 0, hn::Set(D(), upper_[ray]), values);
       if (values.possible != 0) {
-        if (Taker<W, M>(job_, ray, leaf_test).take(id, 0, values)) continue;
+        if (Taker<W, M>(job_, ray).take(id, 0, leaf_test, values)) {
+          ended_ |= std::uint64_t{1} << ray;
+          continue;
+        }
         if (M != WideMode::any) narrow(ray);
       }
       go_to(ray, stacks_.at(--top_[ray]), base_, n);
@@ -130,18 +130,13 @@ class Flight {
   const std::byte* base_;
   std::size_t room_;
   WideStack<W> stacks_;  ///< of all rays, one behind the other
+  std::uint64_t ended_ = 0;
   std::uint32_t at_nodes_ = 0, at_leaves_ = 0;
   // One more: what does not count is written, too.
   Place nodes_[kWideBlock + 1], leaves_[kWideBlock + 1];
   float upper_[kWideBlock];
   std::size_t top_[kWideBlock];  ///< behind what waits
 };
-
-template <int W, WideMode M>
-void fly(WideJob& job, std::uint64_t rays) {
-  if (is_leaf(job.tree.root)) return traverse<W, M, false>(job, rays);
-  Flight<W, M>(job).run(rays);
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace strahl

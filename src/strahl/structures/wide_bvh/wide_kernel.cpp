@@ -15,7 +15,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include <strahl/structures/wide_bvh/wide_flight-inl.h>
+#include <strahl/structures/wide_bvh/wide_packet-inl.h>
 #include <strahl/structures/wide_bvh/wide_prepare-inl.h>
 
 HWY_BEFORE_NAMESPACE();

@@ -16,7 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
-/// A ray's constants, and the tests of up to W lanes.
+/// Constants of one ray, tested with up to W triangles at a time, or of as many rays as a register
+/// has lanes, tested with one triangle at a time.
 template <int W>
 class LeafTest {
  public:
@@ -41,14 +42,72 @@ class LeafTest {
         slack_(hn::Set(D(), rays.org_slack[i])),
         enter_(hn::Set(D(), rays.t_enter[i])),
         enter_sure_(hn::Set(D(), rays.t_enter_sure[i])),
-        blur2_(rays.t_blur2[i]) {}
+        blur2_(hn::Set(D(), rays.t_blur2[i])) {}
+
+  struct RayPerLane {};
+  /// @param first of the rays, a multiple of the lanes
+  LeafTest(const WideRays& rays, std::uint32_t first, RayPerLane)
+      : org_(rows(rays.org, first)),
+        dir_(rows(rays.dir, first)),
+        slack_(hn::Load(D(), rays.org_slack + first)),
+        enter_(hn::Load(D(), rays.t_enter + first)),
+        enter_sure_(hn::Load(D(), rays.t_enter_sure + first)),
+        blur2_(hn::Load(D(), rays.t_blur2 + first)) {}
 
   /// Lanes part * kLanes and up that may be hit at or before `upper`.
   HWY_INLINE void test(const std::byte* leaf, std::uint32_t lanes, int part, V upper,
                        Values& r) const {
     const float* row = corner_row(leaf, lanes, 0) + part * L::kLanes;
-    const V3 a = load(row, lanes), b = load(row + 3 * lanes, lanes),
-             c = load(row + 6 * lanes, lanes);
+    measure(leaf, load(row, lanes), load(row + 3 * lanes, lanes), load(row + 6 * lanes, lanes),
+            upper, r);
+    const std::uint32_t left = lanes - static_cast<std::uint32_t>(part * L::kLanes);
+    r.possible &= (2u << ((left < L::kLanes ? left : L::kLanes) - 1)) - 1;
+  }
+
+  /// Rays that may hit the triangle of one lane at or before their `upper`.
+  HWY_INLINE void test_one(const std::byte* leaf, std::uint32_t lanes, std::uint32_t lane, V upper,
+                           Values& r) const {
+    const float* row = corner_row(leaf, lanes, 0) + lane;
+    measure(leaf, corner(row, lanes), corner(row + 3 * lanes, lanes),
+            corner(row + 6 * lanes, lanes), upper, r);
+  }
+
+  /// Lanes certainly behind `upper`.
+  HWY_INLINE static auto is_behind(const Values& r, V upper) {
+    return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(upper, r.det));
+  }
+
+  /// Lanes that are certainly crossed, certainly behind t_min and certainly before `lower`.
+  HWY_INLINE std::uint32_t certain(const Values& r, V lower) const {
+    const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
+    const auto inside =
+        hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
+    const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+    const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
+    return bits_of(D(), hn::And(hn::And(inside, behind), before)) & r.possible;
+  }
+
+  /// Lanes hit from behind, if they are hit.
+  HWY_INLINE static std::uint32_t backs(const Values& r) {
+    const typename L::DI di;
+    return bits_of(di, hn::Lt(hn::BitCast(di, r.det_sign), hn::Zero(di)));
+  }
+
+  /// Where certain lanes are hit.
+  struct Span {
+    alignas(64) float lower[L::kLanes];
+    alignas(64) float upper[L::kLanes];
+  };
+  HWY_INLINE void span(const Values& r, Span& span) const {
+    const V inverse = hn::Div(hn::Set(D(), 1.0f), r.det);
+    const V t = hn::Mul(r.t, inverse), e = hn::Mul(r.t_error, inverse);
+    hn::Store(hn::Sub(hn::Add(t, e), blur2_), D(), span.lower);
+    hn::Store(hn::Add(hn::Sub(t, e), blur2_), D(), span.upper);
+  }
+
+ private:
+  HWY_INLINE void measure(const std::byte* leaf, const V3& a, const V3& b, const V3& c, V upper,
+                          Values& r) const {
     const V3 s = minus(org_, a), e1 = minus(b, a), e2 = minus(c, a);
     const V3 h = cross(dir_, e2), q = cross(s, e1);
     const V det = dot(e1, h);
@@ -68,42 +127,17 @@ class LeafTest {
         hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)), hn::Lt(r.w, r.error));
     const auto before = hn::Lt(hn::Sub(r.t, r.t_error), hn::Mul(enter_, r.det));
     const auto missed = hn::Or(hn::Or(outside, before), is_behind(r, upper));
-    const std::uint32_t left = lanes - static_cast<std::uint32_t>(part * L::kLanes);
-    const std::uint32_t all = (2u << ((left < L::kLanes ? left : L::kLanes) - 1)) - 1;
-    r.possible = ~bits_of(D(), missed) & all;
+    r.possible = ~bits_of(D(), missed);
   }
 
-  /// Lanes certainly behind `upper`.
-  HWY_INLINE static auto is_behind(const Values& r, V upper) {
-    return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(upper, r.det));
-  }
-
-  /// Lanes that are certainly crossed, certainly behind t_min and certainly before `lower`.
-  HWY_INLINE std::uint32_t certain(const Values& r, V lower) const {
-    const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
-    const auto inside =
-        hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
-    const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
-    const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
-    return bits_of(D(), hn::And(hn::And(inside, behind), before)) & r.possible;
-  }
-
-  /// Where certain lanes are hit.
-  struct Span {
-    alignas(64) float lower[L::kLanes];
-    alignas(64) float upper[L::kLanes];
-  };
-  HWY_INLINE void span(const Values& r, Span& span) const {
-    const V inverse = hn::Div(hn::Set(D(), 1.0f), r.det);
-    const V t = hn::Mul(r.t, inverse), e = hn::Mul(r.t_error, inverse);
-    const V blur = hn::Set(D(), blur2_);
-    hn::Store(hn::Sub(hn::Add(t, e), blur), D(), span.lower);
-    hn::Store(hn::Add(hn::Sub(t, e), blur), D(), span.upper);
-  }
-
- private:
   HWY_INLINE static V3 broadcast(const WideRays::Row* v, std::uint32_t i) {
     return {hn::Set(D(), v[0][i]), hn::Set(D(), v[1][i]), hn::Set(D(), v[2][i])};
+  }
+  HWY_INLINE static V3 rows(const WideRays::Row* v, std::uint32_t first) {
+    return {hn::Load(D(), v[0] + first), hn::Load(D(), v[1] + first), hn::Load(D(), v[2] + first)};
+  }
+  HWY_INLINE static V3 corner(const float* row, std::uint32_t lanes) {
+    return {hn::Set(D(), row[0]), hn::Set(D(), row[lanes]), hn::Set(D(), row[2 * lanes])};
   }
   HWY_INLINE static V3 load(const float* row, std::uint32_t lanes) {
     return {hn::LoadU(D(), row), hn::LoadU(D(), row + lanes), hn::LoadU(D(), row + 2 * lanes)};
@@ -120,8 +154,7 @@ class LeafTest {
   }
 
   V3 org_, dir_;
-  V slack_, enter_, enter_sure_;
-  float blur2_;
+  V slack_, enter_, enter_sure_, blur2_;
 };
 
 }  // namespace HWY_NAMESPACE

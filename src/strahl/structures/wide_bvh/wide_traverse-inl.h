@@ -37,51 +37,34 @@ class Taker {
   using D = typename L::D;
   using Values = typename LeafTest<W>::Values;
 
-  HWY_INLINE Taker(WideJob& job, std::uint32_t ray, const LeafTest<W>& leaf)
-      : job_(job), ray_(ray), leaf_(leaf), answer_(job.answers[ray]) {}
+  HWY_INLINE Taker(WideJob& job, std::uint32_t ray)
+      : job_(job), ray_(ray), answer_(job.answers[ray]) {}
 
-  /// True when the traversal is over.
-  HWY_INLINE bool take(WideId id, int part, const Values& values) {
+  /// What a test of the ray with a block has found. True when the traversal is over.
+  HWY_INLINE bool take(WideId id, int part, const LeafTest<W>& leaf, const Values& values) {
     if constexpr (M == WideMode::each) {
       return resolve(id, part, values.possible);
     } else {
-      const std::uint32_t certain = leaf_.certain(values, hn::Set(D(), answer_.lower));
-      if constexpr (M == WideMode::closest) return take_closest(id, part, values, certain);
+      const std::uint32_t certain = leaf.certain(values, hn::Set(D(), answer_.lower));
+      if constexpr (M == WideMode::closest) return take_closest(id, part, leaf, values, certain);
       answer_.is_found = certain != 0;
       return certain != 0 || resolve(id, part, values.possible);
     }
   }
 
- private:
-  HWY_INLINE bool resolve(WideId id, int part, std::uint32_t lanes) {
-    return job_.resolve(job_, ray_, id, lanes << (part * L::kLanes));
-  }
-
-  /// A lone certain lane becomes the candidate; lanes certainly behind a certain one do not matter.
-  HWY_INLINE bool take_closest(WideId id, int part, const Values& values, std::uint32_t certain) {
-    if (certain == 0) return resolve_others(id, part, values.possible);
-    typename LeafTest<W>::Span span;
-    leaf_.span(values, span);
-    std::uint32_t possible = values.possible;
-    if ((possible & (possible - 1)) != 0) {
-      possible &= ~behind_nearest(values, span, certain);
-      if ((possible & (possible - 1)) != 0 || (possible & certain) == 0)
-        return resolve(id, part, possible);
-    }
-    const int lane = __builtin_ctz(possible);
-    answer_.upper = span.upper[lane], answer_.lower = span.lower[lane];
+  /// A certain hit before all that is known. True when the traversal is over.
+  HWY_INLINE bool keep(WideId id, std::uint32_t lane, float lower, float upper, bool is_front) {
+    if constexpr (M == WideMode::any) return answer_.is_found = true;
+    answer_.upper = upper, answer_.lower = lower;
     answer_.candidate = id;
-    answer_.candidate_lane = static_cast<std::uint32_t>(part * L::kLanes + lane);
-    answer_.candidate_reference = references_of(id, part)[lane];
-    answer_.candidate_is_front = (negative_lanes(values.det_sign) >> lane & 1u) == 0;
+    answer_.candidate_lane = lane;
+    answer_.candidate_reference = references_of(id, 0)[lane];
+    answer_.candidate_is_front = is_front;
     return false;
   }
 
-  const std::uint32_t* references_of(WideId id, int part) const {
-    return reference_row(job_.tree.at(id), lanes_of(id)) + part * L::kLanes;
-  }
-
-  /// A primitive may be in several blocks: the candidate's is not decided again.
+  /// Lanes that may be hit, none certainly. A primitive may be in several blocks: the candidate's is
+  /// not decided again. True when the traversal is over.
   HWY_INLINE bool resolve_others(WideId id, int part, std::uint32_t lanes) {
     if (answer_.candidate != 0) {
       const std::uint32_t* references = references_of(id, part);
@@ -94,9 +77,30 @@ class Taker {
     return resolve(id, part, lanes);
   }
 
-  HWY_INLINE static std::uint32_t negative_lanes(V v) {
-    const typename L::DI di;
-    return bits_of(di, hn::Lt(hn::BitCast(di, v), hn::Zero(di)));
+ private:
+  HWY_INLINE bool resolve(WideId id, int part, std::uint32_t lanes) {
+    return job_.resolve(job_, ray_, id, lanes << (part * L::kLanes));
+  }
+
+  /// A lone certain lane becomes the candidate; lanes certainly behind a certain one do not matter.
+  HWY_INLINE bool take_closest(WideId id, int part, const LeafTest<W>& leaf, const Values& values,
+                               std::uint32_t certain) {
+    if (certain == 0) return resolve_others(id, part, values.possible);
+    typename LeafTest<W>::Span span;
+    leaf.span(values, span);
+    std::uint32_t possible = values.possible;
+    if ((possible & (possible - 1)) != 0) {
+      possible &= ~behind_nearest(values, span, certain);
+      if ((possible & (possible - 1)) != 0 || (possible & certain) == 0)
+        return resolve(id, part, possible);
+    }
+    const int lane = __builtin_ctz(possible);
+    return keep(id, static_cast<std::uint32_t>(part * L::kLanes + lane), span.lower[lane],
+                span.upper[lane], (LeafTest<W>::backs(values) >> lane & 1u) == 0);
+  }
+
+  const std::uint32_t* references_of(WideId id, int part) const {
+    return reference_row(job_.tree.at(id), lanes_of(id)) + part * L::kLanes;
   }
 
   /// Lanes certainly behind the nearest certain one.
@@ -113,7 +117,6 @@ class Taker {
 
   WideJob& job_;
   std::uint32_t ray_;
-  const LeafTest<W>& leaf_;
   WideAnswer& answer_;
 };
 
@@ -159,14 +162,14 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
     const std::uint32_t lanes = lanes_of(id);
     if (kCounts) ++job.counts.leaves, job.counts.lanes += lanes;
     const LeafTest<W> leaf_test(job.rays, ray);
-    Taker<W, M> taker(job, ray, leaf_test);
+    Taker<W, M> taker(job, ray);
     for (int part = 0; part < L::kParts; ++part) {
       if (part > 0 && lanes <= static_cast<std::uint32_t>(part * L::kLanes)) break;
       typename LeafTest<W>::Values values;
       const float upper = answer.upper;
       leaf_test.test(at, lanes, part, hn::Set(typename L::D(), upper), values);
       if (values.possible == 0) continue;
-      if (taker.take(id, part, values)) return;
+      if (taker.take(id, part, leaf_test, values)) return;
       if (M == WideMode::any) continue;
       if (answer.upper < upper) waiting = stack.drop_behind(answer.upper, waiting);
     }

@@ -1,7 +1,6 @@
-// structures/wide_bvh/wide_entry-inl.h - where the rays of a block may begin: below the root, when
-// they run so close together that only few nodes can be met by any of them.
+// structures/wide_bvh/wide_beam-inl.h - all rays of a block as one, against the boxes of a node.
 //
-// Source: entry points of beams [Reshetov2005]; here a beam is bounds of the rays' constants.
+// Source: beams of rays [Reshetov2005]; here a beam is bounds of the rays' constants.
 // Bounds: for a plane p of axis a, m the middle of the origins and r = 1 / d, ray i meets it at
 //     p r_i - o_i r_i = (p - m) r_i + (m - o_i) r_i,
 //   of which the first part lies between its values for the least and the largest r and the second
@@ -11,11 +10,11 @@
 //   widening by u (3 P + 8.5 O) R, which covers its own rounding, keeps entries lower and exits
 //   upper bounds for all rays: a child that no ray of the block hits here is hit by none of them.
 // Per-target code: included under foreach_target, once per instruction set.
-#if defined(STRAHL_WIDE_ENTRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef STRAHL_WIDE_ENTRY_INL_H_
-#undef STRAHL_WIDE_ENTRY_INL_H_
+#if defined(STRAHL_WIDE_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_BEAM_INL_H_
+#undef STRAHL_WIDE_BEAM_INL_H_
 #else
-#define STRAHL_WIDE_ENTRY_INL_H_
+#define STRAHL_WIDE_BEAM_INL_H_
 #endif
 
 #include <strahl/structures/wide_bvh/wide_stack-inl.h>
@@ -23,14 +22,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
-
-/// Nodes and blocks that all rays visit instead of the root, farthest first. None: all miss.
-struct WideEntry {
-  static constexpr std::size_t kMost = 2;
-  std::size_t count = 1;
-  float enter[kMost] = {};
-  WideId ids[kMost] = {};
-};
 
 /// All rays of a block as one. Nodes of one register.
 template <int W>
@@ -47,14 +38,15 @@ class Beam {
     is_narrow_ = which == ~std::uint64_t{0} && have_one_octant(rays);
     if (!is_narrow_) return;
     for (int a = 0; a < 3; ++a) bound(rays, a, reach);
-    enter_ = hn::Set(D(), least(rays.t_enter)), upper_ = hn::Set(D(), largest(rays.upper));
+    enter_ = hn::Set(D(), least(rays.t_enter));
   }
 
   bool is_narrow() const { return is_narrow_; }
 
-  /// Bits of the children that a ray may hit, and where the first of them enters.
-  HWY_INLINE void test(const std::byte* node, typename NodeTest<W>::Hits& hits) const {
-    V first = enter_, last = upper_;
+  /// Bits of the children that a ray may hit at or before `upper`, and where the first of them
+  /// enters.
+  HWY_INLINE void test(const std::byte* node, V upper, typename NodeTest<W>::Hits& hits) const {
+    V first = enter_, last = upper;
     for (int a = 0; a < 3; ++a) {
       const bool down = (signs_ >> a & 1u) != 0;
       const V near = hn::Sub(load(node, down ? a + 3 : a), middle_[a]);
@@ -121,38 +113,8 @@ class Beam {
 
   std::uint32_t signs_;
   bool is_narrow_;
-  V least_rcp_[3], most_rcp_[3], middle_[3], near_[3], far_[3], enter_, upper_;
+  V least_rcp_[3], most_rcp_[3], middle_[3], near_[3], far_[3], enter_;
 };
-
-/// Goes down from the root as long as few children may be hit.
-template <int W>
-WideEntry find_entry(const WideTree& tree, const WideRays& rays, std::uint64_t which) {
-  WideEntry entry;
-  entry.ids[0] = tree.root;
-  const Beam<W> beam(rays, which, static_cast<float>(tree.frame.reach));
-  if (!beam.is_narrow()) return entry;
-  while (entry.count > 0) {
-    // The nearest is divided first; the other waits until it is the only one.
-    const WideId id = entry.ids[entry.count - 1];
-    if (is_leaf(id)) return entry;
-    typename NodeTest<W>::Hits hits;
-    const std::byte* node = tree.at(id);
-    beam.test(node, hits);
-    const auto found = static_cast<std::size_t>(__builtin_popcount(hits.bits));
-    if (entry.count - 1 + found > WideEntry::kMost) return entry;
-    alignas(64) float enter[W];
-    hn::Store(hits.enter[0], typename WideLanes<W>::D(), enter);
-    const std::uint32_t backward = (beam.signs() * (W / 8)) ^ (W - 1);
-    std::uint32_t farthest_first = visiting_order<W>(hits.bits, backward);
-    --entry.count;
-    for (; farthest_first != 0; farthest_first &= farthest_first - 1, ++entry.count) {
-      const auto slot = static_cast<std::uint32_t>(__builtin_ctz(farthest_first)) ^ backward;
-      entry.enter[entry.count] = enter[slot];
-      entry.ids[entry.count] = child_row(node, W)[slot];
-    }
-  }
-  return entry;
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace strahl

@@ -1,0 +1,222 @@
+// structures/wide_bvh/wide_packet-inl.h - coherent rays of a block together, as long as that pays.
+//
+// Source: packets culled as one [Reshetov2005], with the rays that are still wanted as bits beside
+//   each waiting node [BarringerAkenineMoeller2014]; both here over wide nodes.
+// A node's children are tested once, against the beam of all rays; each child that may be met is
+//   tested, a ray per lane, when its turn comes, by when hits have shortened the rays. A block that
+//   most rays reach is tested triangle by triangle, a ray per lane, too. Where a node's children are
+//   many and its rays few, flights take those rays through what lies below it.
+// Bounds, certain hits and what is left to the exact test are those of single rays, so is the
+//   answer.
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_PACKET_INL_H_
+#undef STRAHL_WIDE_PACKET_INL_H_
+#else
+#define STRAHL_WIDE_PACKET_INL_H_
+#endif
+
+#include <strahl/structures/wide_bvh/wide_beam-inl.h>
+#include <strahl/structures/wide_bvh/wide_flight-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+/// A whole block of rays of one octant.
+template <int W, WideMode M>
+class Packet {
+ public:
+  Packet(WideJob& job, const Beam<W>& beam)
+      : job_(job), beam_(beam), backward_((beam.signs() * (W / 8)) ^ (W - 1)), flight_(job) {
+    for (std::uint32_t ray = 0; ray < kWideBlock; ++ray) follow(ray);
+    find_farthest();
+  }
+
+  void run() {
+    divide(job_.tree.root, live_);
+    while (top_ > 0 && live_ != 0) visit(waiting_[--top_]);
+  }
+
+ private:
+  using L = WideLanes<W>;
+  using D = typename L::D;
+  using Leaf = LeafTest<W>;
+  static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(L::kLanes);
+  static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
+  /// What a child of a packet costs in visits of a node by a ray, and a triangle tested by a
+  /// register of rays in tests of a block by a ray, inverse.
+  static constexpr int kRaysPerChild = 3, kTrianglesPerTest = 2;
+
+  /// A child that the beam may meet. Its box is in its parent.
+  struct Waiting {
+    std::uint64_t rays;
+    const std::byte* parent;
+    WideId id;
+    std::uint32_t slot;
+    float enter;
+  };
+
+  void visit(const Waiting& child) {
+    if (!(child.enter <= farthest_)) return;
+    const std::uint64_t rays = meeting(child.parent, child.slot, child.rays & live_);
+    if (rays == 0) return;
+    if (!is_leaf(child.id))
+      divide(child.id, rays);
+    else if (pays(child.id, rays))
+      test_block(child.id, rays);
+    else
+      hand_over(child.id, rays);
+  }
+
+  /// Whether testing triangle by triangle is cheaper than ray by ray.
+  static bool pays(WideId leaf, std::uint64_t rays) {
+    std::uint32_t groups = 0;
+    for (std::uint32_t first = 0; first < kWideBlock; first += kLanes)
+      groups += (rays >> first & kGroup) != 0;
+    return lanes_of(leaf) * groups <
+           kTrianglesPerTest * static_cast<std::uint32_t>(__builtin_popcountll(rays));
+  }
+
+  void divide(WideId id, std::uint64_t rays) {
+    const std::byte* node = job_.tree.at(id);
+    typename NodeTest<W>::Hits hits;
+    beam_.test(node, hn::Set(D(), farthest_), hits);
+    if (kRaysPerChild * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
+      return hand_over(id, rays);
+    alignas(64) float enter[W];
+    hn::Store(hits.enter[0], D(), enter);
+    std::uint32_t farthest_first = visiting_order<W>(hits.bits, backward_);
+    for (; farthest_first != 0; farthest_first &= farthest_first - 1) {
+      const auto slot = static_cast<std::uint32_t>(__builtin_ctz(farthest_first)) ^ backward_;
+      waiting_[top_++] = {rays, node, child_row(node, W)[slot], slot, enter[slot]};
+    }
+    if (top_ > 0) prefetch<W>(job_.tree.at(waiting_[top_ - 1].id));
+  }
+
+  /// Those of the rays that may meet the box of a child.
+  HWY_INLINE std::uint64_t meeting(const std::byte* node, std::uint32_t slot,
+                                   std::uint64_t rays) const {
+    std::uint64_t met = 0;
+    for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
+      if ((rays >> first & kGroup) == 0) continue;
+      auto enter = hn::Load(D(), job_.rays.t_enter + first), leave = hn::Load(D(), upper_ + first);
+      for (int a = 0; a < 3; ++a) {
+        const bool down = (beam_.signs() >> a & 1u) != 0;
+        const auto rcp = hn::Load(D(), job_.rays.rcp[a] + first);
+        const auto near = hn::Load(D(), job_.rays.near[a] + first);
+        const auto far = hn::Load(D(), job_.rays.far[a] + first);
+        enter = hn::Max(enter, hn::MulAdd(plane(node, down ? a + 3 : a, slot), rcp, near));
+        leave = hn::Min(leave, hn::MulAdd(plane(node, down ? a : a + 3, slot), rcp, far));
+      }
+      met |= std::uint64_t{bits_of(D(), hn::Le(enter, leave))} << first;
+    }
+    return met & rays;
+  }
+  HWY_INLINE static typename L::V plane(const std::byte* node, int row, std::uint32_t slot) {
+    return hn::Set(D(), plane_row(node, W, row)[slot]);
+  }
+
+  void test_block(WideId id, std::uint64_t rays) {
+    bool is_shorter = false;
+    for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
+      auto group = static_cast<std::uint32_t>(rays >> first & kGroup);
+      if (group != 0) is_shorter |= test_group(id, first, group);
+    }
+    if (is_shorter) find_farthest();
+  }
+
+  /// Whether any ray of the group has become shorter.
+  HWY_INLINE bool test_group(WideId id, std::uint32_t first, std::uint32_t group) {
+    const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
+    const std::byte* block = job_.tree.at(id);
+    const std::uint32_t lanes = lanes_of(id);
+    bool is_shorter = false;
+    for (std::uint32_t lane = 0; lane < lanes && group != 0; ++lane) {
+      typename Leaf::Values values;
+      test.test_one(block, lanes, lane, hn::Load(D(), upper_ + first), values);
+      values.possible &= group;
+      if (values.possible == 0) continue;
+      group &= ~take(id, lane, first, test, values);
+      is_shorter = true;
+    }
+    return is_shorter;
+  }
+
+  /// Certain hits become candidates, the others are resolved.
+  /// @return lanes whose rays are at their end
+  std::uint32_t take(WideId id, std::uint32_t lane, std::uint32_t first, const Leaf& test,
+                     const typename Leaf::Values& values) {
+    const std::uint32_t certain = test.certain(values, hn::Load(D(), lower_ + first));
+    const std::uint32_t fronts = ~Leaf::backs(values);
+    typename Leaf::Span span;
+    if (M == WideMode::closest && certain != 0) test.span(values, span);
+    std::uint32_t ended = 0;
+    for (std::uint32_t rest = values.possible; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::uint32_t>(__builtin_ctz(rest));
+      Taker<W, M> taker(job_, first + i);
+      bool is_over;
+      if ((certain >> i & 1u) == 0)
+        is_over = taker.resolve_others(id, 0, 1u << lane);
+      else
+        is_over = taker.keep(id, lane, span.lower[i], span.upper[i], (fronts >> i & 1u) != 0);
+      ended |= std::uint32_t{is_over} << i;
+      follow(first + i);
+    }
+    end(std::uint64_t{ended} << first);
+    return ended;
+  }
+
+  void hand_over(WideId id, std::uint64_t rays) {
+    const std::uint64_t ended = flight_.run(rays, id);
+    for (std::uint64_t rest = rays; rest != 0; rest &= rest - 1)
+      follow(static_cast<std::uint32_t>(__builtin_ctzll(rest)));
+    end(ended);
+    find_farthest();
+  }
+
+  HWY_INLINE void follow(std::uint32_t ray) {
+    upper_[ray] = job_.answers[ray].upper, lower_[ray] = job_.answers[ray].lower;
+  }
+  /// They meet nothing any more.
+  void end(std::uint64_t rays) {
+    live_ &= ~rays;
+    for (; rays != 0; rays &= rays - 1) upper_[__builtin_ctzll(rays)] = -1.0f;
+  }
+  void find_farthest() {
+    auto most = hn::Load(D(), upper_);
+    for (std::uint32_t first = kLanes; first < kWideBlock; first += kLanes)
+      most = hn::Max(most, hn::Load(D(), upper_ + first));
+    farthest_ = hn::GetLane(hn::MaxOfLanes(D(), most));
+  }
+
+  WideJob& job_;
+  const Beam<W>& beam_;
+  std::uint32_t backward_;  ///< slot XOR it: farthest first
+  Flight<W, M> flight_;
+  std::uint64_t live_ = ~std::uint64_t{0};
+  float farthest_;  ///< bound of any ray's hits
+  std::size_t top_ = 0;
+  // Bounds of the answers, by lane.
+  alignas(64) float upper_[kWideBlock];
+  alignas(64) float lower_[kWideBlock];
+  Waiting waiting_[wide_stack_room(W, kWideMaxDepth)];
+};
+
+/// Rays of a block: together where they can be, else each on its way, all at once.
+template <int W, WideMode M>
+void fly(WideJob& job, std::uint64_t rays) {
+  if (rays == 0) return;
+  if (is_leaf(job.tree.root)) return traverse<W, M, false>(job, rays);
+  const Beam<W> beam(job.rays, rays, static_cast<float>(job.tree.frame.reach));
+  if (beam.is_narrow())
+    Packet<W, M>(job, beam).run();
+  else
+    Flight<W, M>(job).run(rays, job.tree.root);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
