@@ -312,12 +312,6 @@ void Scene::hash_instances() {
   hash_ = hash.digest();
 }
 
-PrimitiveId Scene::id_of(std::uint32_t reference) const {
-  const Part& part = part_of(reference);
-  return {instances_[part.instance].instance_id, geometries_[part.geometry].geometry_id,
-          reference - part.first_reference};
-}
-
 Aabb Scene::object_bounds(std::uint32_t reference) const {
   const Part& part = part_of(reference);
   return own_bounds(geometries_[part.geometry], reference - part.first_reference);

@@ -132,7 +132,11 @@ class Scene final : public PrimitiveSource {
     while (p + 1 < parts_.size() && parts_[p + 1].first_reference <= reference) ++p;
     return parts_[p];
   }
-  PrimitiveId id_of(std::uint32_t reference) const;
+  PrimitiveId id_of(std::uint32_t reference) const {
+    const Part& part = part_of(reference);
+    return {instances_[part.instance].instance_id, geometries_[part.geometry].geometry_id,
+            reference - part.first_reference};
+  }
   /// References of one instance: consecutive, in the order in which its object numbers them.
   std::uint32_t first_reference(std::uint32_t instance) const {
     return first_references_[instance];

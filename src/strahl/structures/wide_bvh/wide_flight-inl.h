@@ -63,7 +63,7 @@ class Flight {
   HWY_INLINE void start(std::uint32_t ray, WideId from) {
     const std::size_t bottom = ray * room_;
     stacks_.put(bottom, -std::numeric_limits<float>::infinity(), kBottom);
-    top_[ray] = bottom + 1, upper_[ray] = job_.answers[ray].upper;
+    top_[ray] = bottom + 1;
     if (is_leaf(from))
       leaves_[at_leaves_++] = {ray, from};
     else
@@ -81,13 +81,14 @@ class Flight {
     const WideRays& rays = job_.rays;
     const std::byte* const base = base_;
     WideStack<W> stacks = stacks_;
+    const float* const upper = job_.answers.upper;
     const std::uint32_t count = at_nodes_;
     Lists n{0, at_leaves_};
     for (std::uint32_t i = 0; i < count; ++i) {
       const auto [ray, id] = nodes_[i];
       const std::byte* at = base + std::size_t{id} * kWideUnit;
       typename NodeTest<W>::Hits hits;
-      NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper_[ray]), hits);
+      NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper[ray]), hits);
       std::size_t top = top_[ray];
       const WideId next = stacks.exchange(child_row(at, W), hits, rays.signs[ray] * (W / 8), top);
       top_[ray] = top;
@@ -104,24 +105,24 @@ class Flight {
       const std::byte* at = base_ + std::size_t{unit_of(id)} * kWideUnit;
       const LeafTest<W> leaf_test(job_.rays, ray);
       typename LeafTest<W>::Values values;
-      leaf_test.test(at, lanes_of(id), 0, hn::Set(D(), upper_[ray]), values);
+      const float upper = job_.answers.upper[ray];
+      leaf_test.test(at, lanes_of(id), 0, hn::Set(D(), upper), values);
       if (values.possible != 0) {
         if (Taker<W, M>(job_, ray).take(id, 0, leaf_test, values)) {
           ended_ |= std::uint64_t{1} << ray;
           continue;
         }
-        if (M != WideMode::any) narrow(ray);
+        if (M != WideMode::any) drop_behind(ray, upper);
       }
       go_to(ray, stacks_.at(--top_[ray]), base_, n);
     }
     at_nodes_ = n.nodes, at_leaves_ = n.leaves;
   }
 
-  /// Follows the answer's upper bound.
-  HWY_INLINE void narrow(std::uint32_t ray) {
-    const float upper = job_.answers[ray].upper;
-    if (!(upper < upper_[ray])) return;
-    upper_[ray] = upper;
+  /// What waits behind the answer's upper bound, if that is no longer `before`.
+  HWY_INLINE void drop_behind(std::uint32_t ray, float before) {
+    const float upper = job_.answers.upper[ray];
+    if (!(upper < before)) return;
     const std::size_t bottom = ray * room_;
     top_[ray] = bottom + stacks_.from(bottom).drop_behind(upper, top_[ray] - bottom);
   }
@@ -134,7 +135,6 @@ class Flight {
   std::uint32_t at_nodes_ = 0, at_leaves_ = 0;
   // One more: what does not count is written, too.
   Place nodes_[kWideBlock + 1], leaves_[kWideBlock + 1];
-  float upper_[kWideBlock];
   std::size_t top_[kWideBlock];  ///< behind what waits
 };
 

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <strahl/query/float_rays.h>
 #include <strahl/structures/wide_bvh/wide_trace.h>
@@ -47,12 +48,13 @@ class WideFloatTrace {
     const auto reach = static_cast<float>(tree_.frame.reach);
     const std::uint64_t suited = kernel_.prepare(rays_, count, reach);
     for (std::uint32_t i = 0; i < count; ++i) {
-      found_[i] = {rays_.upper[i], rays_.lower[i]};
+      known_.begin(i, rays_.upper[i], rays_.lower[i]);
       answers[i] = Answer{};
     }
-    WideJob job{tree_, rays_, found_, this, &resolve, {}, room_.get()};
+    known_.fronts = known_.found = 0;
+    WideJob job{tree_, rays_, known_, this, &resolve, {}, room_.get()};
     traverse_(job, suited);
-    for (std::uint32_t i = 0; i < count; ++i) finish(i);
+    finish(count);
     add_counts(job.counts, counters_);
     return ~suited & (~std::uint64_t{0} >> (kWideBlock - count));
   }
@@ -67,20 +69,38 @@ class WideFloatTrace {
   void take(std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
       const Vec3f org = given_.org(first_ + i), dir = given_.dir(first_ + i);
-      for (int a = 0; a < 3; ++a) rays_.org[a][i] = org[a], rays_.dir[a][i] = dir[a];
+      for (int a = 0; a < 3; ++a) rays_.org[a][i] = org[a], rays_.given[a][i] = dir[a];
       rays_.t_enter[i] = given_.t_min(first_ + i), rays_.upper[i] = given_.t_max(first_ + i);
     }
     for (std::uint32_t i = count; i % kWideMaxLanes != 0; ++i) {
-      for (int a = 0; a < 3; ++a) rays_.org[a][i] = rays_.dir[a][i] = 0.0f;
+      for (int a = 0; a < 3; ++a) rays_.org[a][i] = rays_.given[a][i] = 0.0f;
       rays_.t_enter[i] = rays_.upper[i] = 0.0f;
     }
   }
 
-  void finish(std::uint32_t i) {
-    if constexpr (kIsAny)
-      answers_[i] |= std::uint8_t{found_[i].is_found};
-    else if (found_[i].candidate != 0)
-      settle(i);
+  void finish(std::uint32_t count) {
+    if constexpr (kIsAny) {
+      for (std::uint32_t i = 0; i < count; ++i) answers_[i] |= std::uint8_t{known_.is_found(i)};
+    } else {
+      std::uint64_t candidates = 0;
+      for (std::uint32_t i = 0; i < count; ++i)
+        candidates |= std::uint64_t{known_.candidate[i] != 0} << i;
+      if (candidates != 0) settle_all(candidates);
+    }
+  }
+
+  void settle_all(std::uint64_t candidates) {
+    if (tree_.has_exact_corners) {
+      alignas(64) double t[kWideBlock];
+      const std::uint64_t certain = kernel_.settle(tree_, rays_, known_, candidates, t);
+      for (std::uint64_t rest = certain; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+        take_candidate(i, t[i]);
+      }
+      candidates &= ~certain;
+    }
+    for (; candidates != 0; candidates &= candidates - 1)
+      settle(static_cast<std::uint32_t>(std::countr_zero(candidates)));
   }
 
   static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {
@@ -89,7 +109,7 @@ class WideFloatTrace {
 
   bool decide(std::uint32_t i, WideId leaf, std::uint32_t lanes) {
     if constexpr (!kIsAny)
-      if (found_[i].candidate != 0) settle(i);
+      if (known_.candidate[i] != 0) settle(i);
     const PreparedRay& ray = prepared(i);
     Q query({ray.org, ray.dir, ray.t_min, ray.t_max}, HitFilter{});
     if constexpr (!kIsAny) query.best = answers_[i];
@@ -102,16 +122,16 @@ class WideFloatTrace {
       return query.found;
     } else {
       answers_[i] = query.best;
-      narrow(found_[i], query.best.t * double{rays_.per_t[i]});
+      narrow(i, query.best.t * double{rays_.per_t[i]});
       return false;
     }
   }
 
   /// Bounds around the frame's t of a hit; they stay where there is none.
-  static void narrow(WideAnswer& found, double t) {
+  void narrow(std::uint32_t i, double t) {
     if (!(t < double{kWideMostT} / 2)) return;
-    found.upper = float_a_little_above(static_cast<float>(t));
-    found.lower = float_a_little_below(static_cast<float>(t));
+    known_.upper[i] = float_a_little_above(static_cast<float>(t));
+    known_.lower[i] = float_a_little_below(static_cast<float>(t));
   }
 
   const PreparedRay& prepared(std::uint32_t i) {
@@ -125,23 +145,23 @@ class WideFloatTrace {
     return *prepared_;
   }
 
+  void take_candidate(std::uint32_t i, double t) {
+    const std::uint32_t reference = known_.reference[i];
+    answers_[i] = {t, prims_.blank_hit(reference).id, known_.is_front(i), reference};
+  }
+
   /// The candidate with its canonical t.
   void settle(std::uint32_t i) {
-    Hit& hit = answers_[i];
-    WideAnswer& found = found_[i];
-    const std::byte* leaf = tree_.at(found.candidate);
-    const std::uint32_t lanes = lanes_of(found.candidate), lane = found.candidate_lane;
-    found.candidate = 0;
-    const std::uint32_t reference = reference_row(leaf, lanes)[lane];
+    const WideId candidate = std::exchange(known_.candidate[i], 0u);
+    const std::byte* leaf = tree_.at(candidate);
+    const std::uint32_t lanes = lanes_of(candidate), lane = known_.lane[i];
     const Vec3d org(given_.org(first_ + i)), dir(given_.dir(first_ + i));
     TriangleVertices triangle;
     if (tree_.has_exact_corners)
       triangle = stored_corners(leaf, lanes, lane);
     else
-      prims_.scene().triangle(reference, triangle);
-    hit.id = prims_.blank_hit(reference).id;
-    hit.is_front = found.candidate_is_front, hit.reference = reference;
-    hit.t = *crossing_t(org, dir, triangle, triangle.a - org) + 0.0;
+      prims_.scene().triangle(known_.reference[i], triangle);
+    take_candidate(i, *crossing_t(org, dir, triangle, triangle.a - org) + 0.0);
   }
 
   const WideTree& tree_;
@@ -156,7 +176,7 @@ class WideFloatTrace {
   std::size_t prepared_index_ = kNone;
   std::optional<PreparedRay> prepared_;
   WideRays rays_;
-  WideAnswer found_[kWideBlock];
+  WideAnswers known_;
 };
 
 }  // namespace strahl

@@ -17,6 +17,7 @@
 
 #include <strahl/structures/wide_bvh/wide_packet-inl.h>
 #include <strahl/structures/wide_bvh/wide_prepare-inl.h>
+#include <strahl/structures/wide_bvh/wide_settle-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
@@ -36,7 +37,7 @@ void add_flight(WideKernel& kernel) {
 
 WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
-  kernel.isa = isa, kernel.prepare = &prepare;
+  kernel.isa = isa, kernel.prepare = &prepare, kernel.settle = &settle;
   kernel.best_width = HWY_MAX_BYTES >= 64 ? 16 : 8;
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);

@@ -27,22 +27,28 @@ struct WideCounts {
 /// How the rays of a block are traced, where the instruction set leaves a choice.
 enum class WideBatch { interleaved, single };
 
-/// What is known of one ray's hits; shared by kernel and resolve.
-struct WideAnswer {
-  float upper;           ///< lanes certainly behind it are not wanted
-  float lower;           ///< lanes certainly before it are better than all that is known
-  WideId candidate = 0;  ///< leaf of a certain hit, nearer than all resolved ones; 0: none
-  std::uint32_t candidate_lane = 0;
-  std::uint32_t candidate_reference = 0;
-  bool candidate_is_front = false;
-  bool is_found = false;  ///< any: a lane is certainly hit
+/// What is known of the hits of a block's rays; shared by kernel and resolve. Not initialised: only
+/// the rays put into it are there.
+struct WideAnswers {
+  alignas(64) float upper[kWideBlock];  ///< lanes certainly behind it are not wanted
+  float lower[kWideBlock];       ///< lanes certainly before it are better than all that is known
+  WideId candidate[kWideBlock];  ///< leaf of a certain hit, nearer than all resolved ones; 0: none
+  std::uint32_t lane[kWideBlock], reference[kWideBlock];  ///< of the candidate
+  std::uint64_t fronts = 0;                               ///< bits: the candidate is hit in front
+  std::uint64_t found = 0;                                ///< bits, any: a lane is certainly hit
+
+  void begin(std::uint32_t ray, float ray_upper, float ray_lower) {
+    upper[ray] = ray_upper, lower[ray] = ray_lower, candidate[ray] = 0;
+  }
+  bool is_front(std::uint32_t ray) const { return (fronts >> ray & 1u) != 0; }
+  bool is_found(std::uint32_t ray) const { return (found >> ray & 1u) != 0; }
 };
 
 /// A traversal of rays of one block.
 struct WideJob {
   const WideTree& tree;
   const WideRays& rays;
-  WideAnswer* answers;  ///< one per ray of the block
+  WideAnswers& answers;
   void* context;
   /// Decides these lanes (bits) of a leaf exactly, and the ray's candidate if there is one; sets
   /// upper and lower and clears the candidate. True ends the ray.
@@ -61,6 +67,9 @@ struct WideKernel {
   WideTraverse traverse[kWideModes][2][2] = {};
   /// Makes float rays ready: wide_prepare-inl.h.
   std::uint64_t (*prepare)(WideRays& rays, std::uint32_t count, float reach) = nullptr;
+  /// Canonical t of candidates: wide_settle-inl.h.
+  std::uint64_t (*settle)(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
+                          std::uint64_t which, double* t) = nullptr;
   /// All rays at once, for closest and any without counts; null where that does not pay.
   WideTraverse fly[2][2] = {};
   int best_width = 8;  ///< what width=auto builds for it

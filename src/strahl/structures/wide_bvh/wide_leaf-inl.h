@@ -99,10 +99,14 @@ class LeafTest {
     alignas(64) float upper[L::kLanes];
   };
   HWY_INLINE void span(const Values& r, Span& span) const {
+    V lower, upper;
+    this->span(r, lower, upper);
+    hn::Store(lower, D(), span.lower), hn::Store(upper, D(), span.upper);
+  }
+  HWY_INLINE void span(const Values& r, V& lower, V& upper) const {
     const V inverse = hn::Div(hn::Set(D(), 1.0f), r.det);
     const V t = hn::Mul(r.t, inverse), e = hn::Mul(r.t_error, inverse);
-    hn::Store(hn::Sub(hn::Add(t, e), blur2_), D(), span.lower);
-    hn::Store(hn::Add(hn::Sub(t, e), blur2_), D(), span.upper);
+    lower = hn::Sub(hn::Add(t, e), blur2_), upper = hn::Add(hn::Sub(t, e), blur2_);
   }
 
  private:

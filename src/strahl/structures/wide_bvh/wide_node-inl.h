@@ -62,13 +62,18 @@ inline constexpr bool kCompresses = true;
 inline constexpr bool kCompresses = false;
 #endif
 
-#if HWY_TARGET == HWY_AVX3
 /// The opposite of bits_of().
 template <class D>
-HWY_INLINE hn::Mask<D> mask_of(D, std::uint32_t bits) {
+HWY_INLINE hn::Mask<D> mask_of(D d, std::uint32_t bits) {
+#if HWY_TARGET == HWY_AVX3
+  (void)d;
   return hn::Mask<D>{static_cast<decltype(hn::Mask<D>::raw)>(bits)};
-}
+#else
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits),
+                                 static_cast<std::uint8_t>(bits >> 8)};
+  return hn::LoadMaskBits(d, bytes);
 #endif
+}
 
 /// A ray's constants in registers.
 template <int W>

@@ -28,8 +28,11 @@ template <int W, WideMode M>
 class Packet {
  public:
   Packet(WideJob& job, const Beam<W>& beam)
-      : job_(job), beam_(beam), backward_((beam.signs() * (W / 8)) ^ (W - 1)), flight_(job) {
-    for (std::uint32_t ray = 0; ray < kWideBlock; ++ray) follow(ray);
+      : job_(job),
+        answers_(job.answers),
+        beam_(beam),
+        backward_((beam.signs() * (W / 8)) ^ (W - 1)),
+        flight_(job) {
     find_farthest();
   }
 
@@ -100,7 +103,7 @@ class Packet {
     std::uint64_t met = 0;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       if ((rays >> first & kGroup) == 0) continue;
-      auto enter = hn::Load(D(), job_.rays.t_enter + first), leave = hn::Load(D(), upper_ + first);
+      auto enter = hn::Load(D(), job_.rays.t_enter + first), leave = hn::Load(D(), answers_.upper + first);
       for (int a = 0; a < 3; ++a) {
         const bool down = (beam_.signs() >> a & 1u) != 0;
         const auto rcp = hn::Load(D(), job_.rays.rcp[a] + first);
@@ -134,7 +137,7 @@ class Packet {
     bool is_shorter = false;
     for (std::uint32_t lane = 0; lane < lanes && group != 0; ++lane) {
       typename Leaf::Values values;
-      test.test_one(block, lanes, lane, hn::Load(D(), upper_ + first), values);
+      test.test_one(block, lanes, lane, hn::Load(D(), answers_.upper + first), values);
       values.possible &= group;
       if (values.possible == 0) continue;
       group &= ~take(id, lane, first, test, values);
@@ -147,59 +150,66 @@ class Packet {
   /// @return lanes whose rays are at their end
   std::uint32_t take(WideId id, std::uint32_t lane, std::uint32_t first, const Leaf& test,
                      const typename Leaf::Values& values) {
-    const std::uint32_t certain = test.certain(values, hn::Load(D(), lower_ + first));
-    const std::uint32_t fronts = ~Leaf::backs(values);
-    typename Leaf::Span span;
-    if (M == WideMode::closest && certain != 0) test.span(values, span);
+    const std::uint32_t certain = test.certain(values, hn::Load(D(), answers_.lower + first));
     std::uint32_t ended = 0;
-    for (std::uint32_t rest = values.possible; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<std::uint32_t>(__builtin_ctz(rest));
-      Taker<W, M> taker(job_, first + i);
-      bool is_over;
-      if ((certain >> i & 1u) == 0)
-        is_over = taker.resolve_others(id, 0, 1u << lane);
+    if (certain != 0) {
+      if constexpr (M == WideMode::closest)
+        keep(id, lane, first, test, values, certain);
       else
-        is_over = taker.keep(id, lane, span.lower[i], span.upper[i], (fronts >> i & 1u) != 0);
+        answers_.found |= std::uint64_t{certain} << first, ended = certain;
+    }
+    for (std::uint32_t rest = values.possible & ~certain; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::uint32_t>(__builtin_ctz(rest));
+      const bool is_over = Taker<W, M>(job_, first + i).resolve_others(id, 0, 1u << lane);
       ended |= std::uint32_t{is_over} << i;
-      follow(first + i);
     }
     end(std::uint64_t{ended} << first);
     return ended;
   }
 
+  /// Certain hits before all that is known.
+  HWY_INLINE void keep(WideId id, std::uint32_t lane, std::uint32_t first, const Leaf& test,
+                       const typename Leaf::Values& values, std::uint32_t certain) {
+    const hn::RebindToUnsigned<D> du;
+    const auto mask = mask_of(D(), certain);
+    const auto whole = hn::RebindMask(du, mask);
+    typename L::V lower, upper;
+    test.span(values, lower, upper);
+    hn::BlendedStore(upper, mask, D(), answers_.upper + first);
+    hn::BlendedStore(lower, mask, D(), answers_.lower + first);
+    const std::uint32_t reference = reference_row(job_.tree.at(id), lanes_of(id))[lane];
+    hn::BlendedStore(hn::Set(du, id), whole, du, answers_.candidate + first);
+    hn::BlendedStore(hn::Set(du, lane), whole, du, answers_.lane + first);
+    hn::BlendedStore(hn::Set(du, reference), whole, du, answers_.reference + first);
+    const std::uint64_t front = certain & ~Leaf::backs(values);
+    answers_.fronts = (answers_.fronts & ~(std::uint64_t{certain} << first)) | front << first;
+  }
+
   void hand_over(WideId id, std::uint64_t rays) {
-    const std::uint64_t ended = flight_.run(rays, id);
-    for (std::uint64_t rest = rays; rest != 0; rest &= rest - 1)
-      follow(static_cast<std::uint32_t>(__builtin_ctzll(rest)));
-    end(ended);
+    end(flight_.run(rays, id));
     find_farthest();
   }
 
-  HWY_INLINE void follow(std::uint32_t ray) {
-    upper_[ray] = job_.answers[ray].upper, lower_[ray] = job_.answers[ray].lower;
-  }
   /// They meet nothing any more.
   void end(std::uint64_t rays) {
     live_ &= ~rays;
-    for (; rays != 0; rays &= rays - 1) upper_[__builtin_ctzll(rays)] = -1.0f;
+    for (; rays != 0; rays &= rays - 1) answers_.upper[__builtin_ctzll(rays)] = -1.0f;
   }
   void find_farthest() {
-    auto most = hn::Load(D(), upper_);
+    auto most = hn::Load(D(), answers_.upper);
     for (std::uint32_t first = kLanes; first < kWideBlock; first += kLanes)
-      most = hn::Max(most, hn::Load(D(), upper_ + first));
+      most = hn::Max(most, hn::Load(D(), answers_.upper + first));
     farthest_ = hn::GetLane(hn::MaxOfLanes(D(), most));
   }
 
   WideJob& job_;
+  WideAnswers& answers_;
   const Beam<W>& beam_;
   std::uint32_t backward_;  ///< slot XOR it: farthest first
   Flight<W, M> flight_;
   std::uint64_t live_ = ~std::uint64_t{0};
   float farthest_;  ///< bound of any ray's hits
   std::size_t top_ = 0;
-  // Bounds of the answers, by lane.
-  alignas(64) float upper_[kWideBlock];
-  alignas(64) float lower_[kWideBlock];
   Waiting waiting_[wide_stack_room(W, kWideMaxDepth)];
 };
 

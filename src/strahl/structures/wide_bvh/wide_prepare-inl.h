@@ -51,7 +51,7 @@ class Preparation {
 
   /// Brings the squared length into [0.25, 1.0001]: the exponent's half is taken from it.
   HWY_INLINE hn::Mask<D> make_unit() {
-    const V x = load(rays_.dir[0]), y = load(rays_.dir[1]), z = load(rays_.dir[2]);
+    const V x = load(rays_.given[0]), y = load(rays_.given[1]), z = load(rays_.given[2]);
     const V squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     const DI di;
     const auto exponent = hn::Sub(
@@ -116,7 +116,7 @@ class Preparation {
   hn::Vec<hn::RebindToUnsigned<D>> signs_ = hn::Zero(hn::RebindToUnsigned<D>());
 };
 
-/// Rays 0 .. count - 1, of which org, dir, t_min in t_enter and t_max in upper are given.
+/// Rays 0 .. count - 1, of which org, the given dir, t_min in t_enter and t_max in upper are given.
 /// @return bits of those that suit; the others are to be set by doubles, invalid ones among them
 inline std::uint64_t prepare(WideRays& rays, std::uint32_t count, float reach) {
   constexpr auto kLanes = static_cast<std::uint32_t>(WideLanes<16>::kLanes);

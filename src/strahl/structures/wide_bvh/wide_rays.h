@@ -17,6 +17,7 @@ struct WideRays {
 
   alignas(64) Row org[3];
   Row dir[3], rcp[3], near[3], far[3];
+  Row given[3];      ///< directions as given, of batches of floats only
   Row org_slack;     ///< distance to be added to |a - org| for the origin's own error
   Row t_enter;       ///< at most the frame's t of any wanted hit
   Row t_enter_sure;  ///< hits behind it are behind t_min

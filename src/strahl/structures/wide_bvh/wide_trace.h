@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include <strahl/geometry/triangle.h>
 #include <strahl/query/counters.h>
@@ -72,13 +73,14 @@ class WideTrace {
 
   void run() {
     WideRays rays;
-    WideAnswer answer;
+    WideAnswers answers;
     wide_.put(rays, 0);
-    take_bounds(answer);
-    WideJob job{tree_, rays, &answer, this, &resolve};
+    answers.candidate[0] = 0;
+    take_bounds(answers);
+    WideJob job{tree_, rays, answers, this, &resolve};
     kernel_.find(mode(), kIsCounted, tree_.width)(job, 1);
-    if (answer.is_found) accept_any();
-    settle(answer);
+    if (answers.is_found(0)) accept_any();
+    settle(answers);
     add_counts(job.counts, counters_);
   }
 
@@ -105,13 +107,14 @@ class WideTrace {
     return WideMode::each;
   }
 
-  void take_bounds(WideAnswer& answer) const {
+  /// Of the only ray.
+  void take_bounds(WideAnswers& answers) const {
     const double t = query_.t_max();
     if (t == std::numeric_limits<double>::infinity()) {
-      answer.upper = answer.lower = kWideMostT;
+      answers.upper[0] = answers.lower[0] = kWideMostT;
       return;
     }
-    answer.upper = wide_.upper(t), answer.lower = wide_.lower(t);
+    answers.upper[0] = wide_.upper(t), answers.lower[0] = wide_.lower(t);
   }
 
   void accept_any() {
@@ -120,30 +123,30 @@ class WideTrace {
 
   static bool resolve(WideJob& job, std::uint32_t, WideId leaf, std::uint32_t lanes) {
     auto& self = *static_cast<WideTrace*>(job.context);
-    self.settle(*job.answers);
+    self.settle(job.answers);
     const std::uint32_t* references = reference_row(self.tree_.at(leaf), lanes_of(leaf));
     NoCounters uncounted;  // the kernel has counted the lanes
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::uint32_t reference = references[std::countr_zero(lanes)];
       if (self.prims_.visit(reference, self.prepared(), self.query_, uncounted)) return true;
     }
-    self.take_bounds(*job.answers);
+    self.take_bounds(job.answers);
     return false;
   }
 
   /// Offers the candidate with its canonical t.
-  void settle(WideAnswer& answer) {
-    if (answer.candidate == 0) return;
-    const std::byte* leaf = tree_.at(answer.candidate);
-    const std::uint32_t lanes = lanes_of(answer.candidate), lane = answer.candidate_lane;
-    answer.candidate = 0;
+  void settle(WideAnswers& answers) {
+    const WideId candidate = std::exchange(answers.candidate[0], 0u);
+    if (candidate == 0) return;
+    const std::byte* leaf = tree_.at(candidate);
+    const std::uint32_t lanes = lanes_of(candidate), lane = answers.lane[0];
     const std::uint32_t reference = reference_row(leaf, lanes)[lane];
     if constexpr (kMakesHits && std::is_same_v<Q, ClosestHit>) {
       if (tree_.has_exact_corners) {
         const TriangleVertices triangle = stored_corners(leaf, lanes, lane);
         const std::optional<double> t =
             crossing_t(ray_.org, ray_.dir, triangle, triangle.a - ray_.org);
-        take(prims_.blank_hit(reference), *t + 0.0, answer.candidate_is_front);
+        take(prims_.blank_hit(reference), *t + 0.0, answers.is_front(0));
         return;
       }
     }

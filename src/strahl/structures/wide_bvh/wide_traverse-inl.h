@@ -38,39 +38,28 @@ class Taker {
   using Values = typename LeafTest<W>::Values;
 
   HWY_INLINE Taker(WideJob& job, std::uint32_t ray)
-      : job_(job), ray_(ray), answer_(job.answers[ray]) {}
+      : job_(job), answers_(job.answers), ray_(ray) {}
 
   /// What a test of the ray with a block has found. True when the traversal is over.
   HWY_INLINE bool take(WideId id, int part, const LeafTest<W>& leaf, const Values& values) {
     if constexpr (M == WideMode::each) {
       return resolve(id, part, values.possible);
     } else {
-      const std::uint32_t certain = leaf.certain(values, hn::Set(D(), answer_.lower));
+      const std::uint32_t certain = leaf.certain(values, hn::Set(D(), answers_.lower[ray_]));
       if constexpr (M == WideMode::closest) return take_closest(id, part, leaf, values, certain);
-      answer_.is_found = certain != 0;
+      answers_.found |= std::uint64_t{certain != 0} << ray_;
       return certain != 0 || resolve(id, part, values.possible);
     }
-  }
-
-  /// A certain hit before all that is known. True when the traversal is over.
-  HWY_INLINE bool keep(WideId id, std::uint32_t lane, float lower, float upper, bool is_front) {
-    if constexpr (M == WideMode::any) return answer_.is_found = true;
-    answer_.upper = upper, answer_.lower = lower;
-    answer_.candidate = id;
-    answer_.candidate_lane = lane;
-    answer_.candidate_reference = references_of(id, 0)[lane];
-    answer_.candidate_is_front = is_front;
-    return false;
   }
 
   /// Lanes that may be hit, none certainly. A primitive may be in several blocks: the candidate's is
   /// not decided again. True when the traversal is over.
   HWY_INLINE bool resolve_others(WideId id, int part, std::uint32_t lanes) {
-    if (answer_.candidate != 0) {
+    if (answers_.candidate[ray_] != 0) {
       const std::uint32_t* references = references_of(id, part);
       for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
-        if (references[lane] == answer_.candidate_reference) lanes &= ~(1u << lane);
+        if (references[lane] == answers_.reference[ray_]) lanes &= ~(1u << lane);
       }
       if (lanes == 0) return false;
     }
@@ -95,8 +84,14 @@ class Taker {
         return resolve(id, part, possible);
     }
     const int lane = __builtin_ctz(possible);
-    return keep(id, static_cast<std::uint32_t>(part * L::kLanes + lane), span.lower[lane],
-                span.upper[lane], (LeafTest<W>::backs(values) >> lane & 1u) == 0);
+    const std::uint64_t bit = std::uint64_t{1} << ray_;
+    answers_.upper[ray_] = span.upper[lane], answers_.lower[ray_] = span.lower[lane];
+    answers_.candidate[ray_] = id;
+    answers_.lane[ray_] = static_cast<std::uint32_t>(part * L::kLanes + lane);
+    answers_.reference[ray_] = references_of(id, part)[lane];
+    const bool is_back = (LeafTest<W>::backs(values) >> lane & 1u) != 0;
+    answers_.fronts = is_back ? answers_.fronts & ~bit : answers_.fronts | bit;
+    return false;
   }
 
   const std::uint32_t* references_of(WideId id, int part) const {
@@ -107,7 +102,7 @@ class Taker {
   HWY_INLINE std::uint32_t behind_nearest(const Values& values,
                                           const typename LeafTest<W>::Span& span,
                                           std::uint32_t certain) const {
-    float nearest = answer_.upper;
+    float nearest = answers_.upper[ray_];
     for (; certain != 0; certain &= certain - 1) {
       const float upper = span.upper[__builtin_ctz(certain)];
       nearest = upper < nearest ? upper : nearest;
@@ -116,8 +111,8 @@ class Taker {
   }
 
   WideJob& job_;
+  WideAnswers& answers_;
   std::uint32_t ray_;
-  WideAnswer& answer_;
 };
 
 inline constexpr WideId kNoNode = 0xffffffffu;
@@ -129,7 +124,7 @@ template <int W, bool kCounts>
 HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<W>& stack,
                           std::size_t& waiting_out) {
   const NodeTest<W> node_test(job.rays, ray);
-  const auto upper = hn::Set(typename WideLanes<W>::D(), job.answers[ray].upper);
+  const auto upper = hn::Set(typename WideLanes<W>::D(), job.answers.upper[ray]);
   const std::uint32_t order = job.rays.signs[ray] * (W / 8);
   const std::byte* const base = job.tree.arena.data();
   std::size_t waiting = waiting_out;
@@ -154,7 +149,7 @@ template <int W, WideMode M, bool kCounts>
 HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stack) {
   using L = WideLanes<W>;
   const std::byte* const base = job.tree.arena.data();
-  WideAnswer& answer = job.answers[ray];
+  const float& bound = job.answers.upper[ray];
   std::size_t waiting = 0;
   WideId id = job.tree.root;
   while ((id = descend<W, kCounts>(job, ray, id, stack, waiting)) != kNoNode) {
@@ -166,12 +161,12 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
     for (int part = 0; part < L::kParts; ++part) {
       if (part > 0 && lanes <= static_cast<std::uint32_t>(part * L::kLanes)) break;
       typename LeafTest<W>::Values values;
-      const float upper = answer.upper;
+      const float upper = bound;
       leaf_test.test(at, lanes, part, hn::Set(typename L::D(), upper), values);
       if (values.possible == 0) continue;
       if (taker.take(id, part, leaf_test, values)) return;
       if (M == WideMode::any) continue;
-      if (answer.upper < upper) waiting = stack.drop_behind(answer.upper, waiting);
+      if (bound < upper) waiting = stack.drop_behind(bound, waiting);
     }
     if (waiting == 0) return;
     id = stack.at(--waiting);

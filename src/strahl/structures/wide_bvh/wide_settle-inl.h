@@ -1,0 +1,113 @@
+// structures/wide_bvh/wide_settle-inl.h - the canonical t of a block's candidates, a ray per lane.
+//
+// The operations and their order are those of crossing_t() in geometry/triangle.h, so the bits are,
+//   too. Lanes where it would go on to exact numbers are left to it.
+// Per-target code: included under foreach_target, once per instruction set.
+#if defined(STRAHL_WIDE_SETTLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STRAHL_WIDE_SETTLE_INL_H_
+#undef STRAHL_WIDE_SETTLE_INL_H_
+#else
+#define STRAHL_WIDE_SETTLE_INL_H_
+#endif
+
+#include <strahl/structures/wide_bvh/wide_kernel.h>
+#include <strahl/structures/wide_bvh/wide_node-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace strahl {
+namespace HWY_NAMESPACE {
+
+/// Corners of candidates, a row per coordinate, a lane per ray.
+struct CandidateCorners {
+  alignas(64) float rows[9][kWideBlock];
+
+  HWY_INLINE void put(const WideTree& tree, const WideAnswers& answers, std::uint32_t ray) {
+    const WideId leaf = answers.candidate[ray];
+    const std::uint32_t lanes = lanes_of(leaf);
+    const float* corner = corner_row(tree.at(leaf), lanes, 0) + answers.lane[ray];
+    for (int row = 0; row < 9; ++row, corner += lanes) rows[row][ray] = *corner;
+  }
+};
+
+/// Rays of one register of doubles.
+class Settlement {
+ public:
+  using D = hn::CappedTag<double, 8>;
+  using DF = hn::Rebind<float, D>;
+  using V = hn::Vec<D>;
+  static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
+
+  Settlement(const WideRays& rays, const CandidateCorners& corners, std::uint32_t first)
+      : org_(load(rays.org, first)), dir_(load(rays.given, first)) {
+    const V3 a = load(corners.rows, first);
+    ab_ = minus(load(corners.rows + 3, first), a), ac_ = minus(load(corners.rows + 6, first), a);
+    to_a_ = minus(a, org_);
+  }
+
+  /// @return bits of the lanes whose t is certain
+  HWY_INLINE std::uint32_t run(double* t) const {
+    const V3 n = cross(ab_, ac_);
+    const V numerator = dot(to_a_, n), denominator = dot(dir_, n);
+    const V needed = hn::Mul(hn::Mul(hn::Set(D(), 18 * 0x1p-11), norm_max(ab_)), norm_max(ac_));
+    const auto certain =
+        hn::And(hn::Gt(hn::Abs(numerator), hn::Mul(needed, norm1(to_a_))),
+                hn::Gt(hn::Abs(denominator), hn::Mul(needed, norm1(dir_))));
+    hn::Store(hn::Add(hn::Div(numerator, denominator), hn::Zero(D())), D(), t);  // no -0
+    return bits_of(D(), certain);
+  }
+
+ private:
+  struct V3 {
+    V x, y, z;
+  };
+  template <class Row>
+  HWY_INLINE static V3 load(const Row* rows, std::uint32_t first) {
+    const auto wide = [&](const Row& row) {
+      return hn::PromoteTo(D(), hn::Load(DF(), row + first));
+    };
+    return {wide(rows[0]), wide(rows[1]), wide(rows[2])};
+  }
+  HWY_INLINE static V3 minus(const V3& a, const V3& b) {
+    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+  }
+  HWY_INLINE static V difference(V a, V b, V c, V d) {
+    return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
+  }
+  HWY_INLINE static V3 cross(const V3& a, const V3& b) {
+    return {difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z),
+            difference(a.x, b.y, a.y, b.x)};
+  }
+  HWY_INLINE static V dot(const V3& a, const V3& b) {
+    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+  }
+  HWY_INLINE static V norm1(const V3& a) {
+    return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
+  }
+  HWY_INLINE static V norm_max(const V3& a) {
+    return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
+  }
+
+  V3 org_, dir_, ab_, ac_, to_a_;
+};
+
+/// Canonical t of the candidates of these rays, in a tree that holds the very corners.
+/// @return bits of those whose t is certain; t of the others is undefined
+inline std::uint64_t settle(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
+                            std::uint64_t which, double* t) {
+  CandidateCorners corners;
+  for (std::uint64_t rest = which; rest != 0; rest &= rest - 1)
+    corners.put(tree, answers, static_cast<std::uint32_t>(__builtin_ctzll(rest)));
+  std::uint64_t certain = 0;
+  constexpr std::uint64_t kGroup = (std::uint64_t{1} << Settlement::kLanes) - 1;
+  for (std::uint32_t first = 0; first < kWideBlock; first += Settlement::kLanes) {
+    if ((which >> first & kGroup) == 0) continue;
+    certain |= std::uint64_t{Settlement(rays, corners, first).run(t + first)} << first;
+  }
+  return certain & which;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace strahl
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
