@@ -50,11 +50,12 @@ class Flight {
   static constexpr WideId kBottom = kWideLeaf;
   static constexpr std::uint32_t kManyLeaves = 24;  ///< rays at blocks that are worth a round
 
-  /// A ray and where it is.
-  struct Place {
-    std::uint32_t ray;
-    WideId id;
-  };
+  /// A ray and where it is, as one number: what is written in two parts and copied whole waits for
+  /// both.
+  using Place = std::uint64_t;
+  static Place place(std::uint32_t ray, WideId id) { return Place{id} << 32 | ray; }
+  static std::uint32_t ray_of(Place place) { return static_cast<std::uint32_t>(place); }
+  static WideId id_of(Place place) { return static_cast<WideId>(place >> 32); }
   /// Lengths of the lists while they are written, in registers.
   struct Lists {
     std::uint32_t nodes, leaves;
@@ -65,14 +66,14 @@ class Flight {
     stacks_.put(bottom, -std::numeric_limits<float>::infinity(), kBottom);
     top_[ray] = bottom + 1;
     if (is_leaf(from))
-      leaves_[at_leaves_++] = {ray, from};
+      leaves_[at_leaves_++] = place(ray, from);
     else
-      nodes_[at_nodes_++] = {ray, from};
+      nodes_[at_nodes_++] = place(ray, from);
   }
 
   /// Into the list it belongs to; into none when it is at its end.
   HWY_INLINE void go_to(std::uint32_t ray, WideId id, const std::byte* base, Lists& n) {
-    nodes_[n.nodes] = leaves_[n.leaves] = {ray, id};
+    nodes_[n.nodes] = leaves_[n.leaves] = place(ray, id);
     n.nodes += 1 - (id >> 31), n.leaves += id > kBottom;
     prefetch<W>(base + std::size_t{unit_of(id)} * kWideUnit);
   }
@@ -85,7 +86,8 @@ class Flight {
     const std::uint32_t count = at_nodes_;
     Lists n{0, at_leaves_};
     for (std::uint32_t i = 0; i < count; ++i) {
-      const auto [ray, id] = nodes_[i];
+      const std::uint32_t ray = ray_of(nodes_[i]);
+      const WideId id = id_of(nodes_[i]);
       const std::byte* at = base + std::size_t{id} * kWideUnit;
       typename NodeTest<W>::Hits hits;
       NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper[ray]), hits);
@@ -101,7 +103,8 @@ class Flight {
     const std::uint32_t count = at_leaves_;
     Lists n{at_nodes_, 0};
     for (std::uint32_t i = 0; i < count; ++i) {
-      const auto [ray, id] = leaves_[i];
+      const std::uint32_t ray = ray_of(leaves_[i]);
+      const WideId id = id_of(leaves_[i]);
       const std::byte* at = base_ + std::size_t{unit_of(id)} * kWideUnit;
       const LeafTest<W> leaf_test(job_.rays, ray);
       typename LeafTest<W>::Values values;

@@ -53,8 +53,9 @@ template <int W>
 inline std::uint32_t visiting_order(std::uint32_t bits, std::uint32_t order) {
   const auto& table = wide_detail::kOrderTable[order & 7u];
   if constexpr (W == 8) return table[bits];
-  const std::uint32_t low = table[bits & 255u], high = table[bits >> 8];
-  return (order & 8u) != 0 ? low << 8 | high : high << 8 | low;
+  const std::uint32_t halves = std::uint32_t{table[bits & 255u]} | std::uint32_t{table[bits >> 8]}
+                                                                       << 8;
+  return (halves | halves << 16) >> (order & 8u) & 0xffffu;  // rotated, without a branch
 }
 
 /// The slots of `bits`, one per byte from the lowest, farthest first; the highest byte is the

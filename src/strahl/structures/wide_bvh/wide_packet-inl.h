@@ -4,8 +4,8 @@
 //   each waiting node [BarringerAkenineMoeller2014]; both here over wide nodes.
 // A node's children are tested once, against the beam of all rays; each child that may be met is
 //   tested, a ray per lane, when its turn comes, by when hits have shortened the rays. A block that
-//   most rays reach is tested triangle by triangle, a ray per lane, too. Where a node's children are
-//   many and its rays few, flights take those rays through what lies below it.
+//   most rays reach is tested triangle by triangle, a ray per lane, too. Where a node's children
+//   are many and its rays few, flights take those rays through what lies below it.
 // Bounds, certain hits and what is left to the exact test are those of single rays, so is the
 //   answer.
 // Per-target code: included under foreach_target, once per instruction set.
@@ -103,7 +103,8 @@ class Packet {
     std::uint64_t met = 0;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       if ((rays >> first & kGroup) == 0) continue;
-      auto enter = hn::Load(D(), job_.rays.t_enter + first), leave = hn::Load(D(), answers_.upper + first);
+      auto enter = hn::Load(D(), job_.rays.t_enter + first),
+           leave = hn::Load(D(), answers_.upper + first);
       for (int a = 0; a < 3; ++a) {
         const bool down = (beam_.signs() >> a & 1u) != 0;
         const auto rcp = hn::Load(D(), job_.rays.rcp[a] + first);

@@ -49,9 +49,8 @@ class Settlement {
     const V3 n = cross(ab_, ac_);
     const V numerator = dot(to_a_, n), denominator = dot(dir_, n);
     const V needed = hn::Mul(hn::Mul(hn::Set(D(), 18 * 0x1p-11), norm_max(ab_)), norm_max(ac_));
-    const auto certain =
-        hn::And(hn::Gt(hn::Abs(numerator), hn::Mul(needed, norm1(to_a_))),
-                hn::Gt(hn::Abs(denominator), hn::Mul(needed, norm1(dir_))));
+    const auto certain = hn::And(hn::Gt(hn::Abs(numerator), hn::Mul(needed, norm1(to_a_))),
+                                 hn::Gt(hn::Abs(denominator), hn::Mul(needed, norm1(dir_))));
     hn::Store(hn::Add(hn::Div(numerator, denominator), hn::Zero(D())), D(), t);  // no -0
     return bits_of(D(), certain);
   }

@@ -37,8 +37,7 @@ class Taker {
   using D = typename L::D;
   using Values = typename LeafTest<W>::Values;
 
-  HWY_INLINE Taker(WideJob& job, std::uint32_t ray)
-      : job_(job), answers_(job.answers), ray_(ray) {}
+  HWY_INLINE Taker(WideJob& job, std::uint32_t ray) : job_(job), answers_(job.answers), ray_(ray) {}
 
   /// What a test of the ray with a block has found. True when the traversal is over.
   HWY_INLINE bool take(WideId id, int part, const LeafTest<W>& leaf, const Values& values) {
@@ -52,8 +51,8 @@ class Taker {
     }
   }
 
-  /// Lanes that may be hit, none certainly. A primitive may be in several blocks: the candidate's is
-  /// not decided again. True when the traversal is over.
+  /// Lanes that may be hit, none certainly. A primitive may be in several blocks: the candidate's
+  /// is not decided again. True when the traversal is over.
   HWY_INLINE bool resolve_others(WideId id, int part, std::uint32_t lanes) {
     if (answers_.candidate[ray_] != 0) {
       const std::uint32_t* references = references_of(id, part);
