@@ -9,6 +9,8 @@
 //   R >= |r_i|: p - m, u (P + O) R; m r_i + near_i, 2.1 u O R; the last sum, u (P + 3.2 O) R; so
 //   widening by u (3 P + 8.5 O) R, which covers its own rounding, keeps entries lower and exits
 //   upper bounds for all rays: a child that no ray of the block hits here is hit by none of them.
+// Rays of several octants have no such bounds: their beam is the box of what is left of them, from
+//   t_enter to upper, widened by more than its points o + t d are rounded, u (|o| + |t d|).
 // Per-target code: included under foreach_target, once per instruction set.
 #if defined(STRAHL_WIDE_BEAM_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef STRAHL_WIDE_BEAM_INL_H_
@@ -31,21 +33,29 @@ class Beam {
   using D = typename L::D;
   using V = typename L::V;
 
-  /// @param rays bits of those of the block, more than none
-  Beam(const WideRays& rays, std::uint64_t which, float reach)
-      : signs_(rays.signs[first_of(which)]) {
-    // Only whole blocks: then no lane has to be left out.
-    is_narrow_ = which == ~std::uint64_t{0} && have_one_octant(rays);
-    if (!is_narrow_) return;
-    for (int a = 0; a < 3; ++a) bound(rays, a, reach);
+  /// @param rays of a whole block: no lane has to be left out
+  /// @param upper bounds of their hits
+  Beam(const WideRays& rays, const float* upper, float reach)
+      : signs_(rays.signs[0]), has_one_octant_(have_one_octant(rays)) {
+    for (int a = 0; a < 3; ++a)
+      has_one_octant_ ? bound(rays, a, reach) : enclose(rays, upper, a, reach);
     enter_ = hn::Set(D(), least(rays.t_enter));
   }
 
-  bool is_narrow() const { return is_narrow_; }
+  bool has_one_octant() const { return has_one_octant_; }
 
   /// Bits of the children that a ray may hit at or before `upper`, and where the first of them
   /// enters.
   HWY_INLINE void test(const std::byte* node, V upper, typename NodeTest<W>::Hits& hits) const {
+    return has_one_octant_ ? test_planes(node, upper, hits) : test_box(node, hits);
+  }
+
+  /// Of the first ray.
+  std::uint32_t signs() const { return signs_; }
+
+ private:
+  HWY_INLINE void test_planes(const std::byte* node, V upper,
+                              typename NodeTest<W>::Hits& hits) const {
     V first = enter_, last = upper;
     for (int a = 0; a < 3; ++a) {
       const bool down = (signs_ >> a & 1u) != 0;
@@ -60,12 +70,15 @@ class Beam {
     hits.bits = bits_of(D(), hn::Le(first, last));
   }
 
-  std::uint32_t signs() const { return signs_; }
-
- private:
-  static std::uint32_t first_of(std::uint64_t which) {
-    return static_cast<std::uint32_t>(__builtin_ctzll(which));
+  HWY_INLINE void test_box(const std::byte* node, typename NodeTest<W>::Hits& hits) const {
+    auto meets = hn::And(hn::Le(load(node, 0), far_[0]), hn::Ge(load(node, 3), near_[0]));
+    for (int a = 1; a < 3; ++a)
+      meets = hn::And(meets, hn::And(hn::Le(load(node, a), far_[a]),
+                                     hn::Ge(load(node, a + 3), near_[a])));
+    hits.enter[0] = enter_;
+    hits.bits = bits_of(D(), meets);
   }
+
   HWY_INLINE static V load(const std::byte* node, int row) {
     return hn::LoadU(D(), plane_row(node, W, row));
   }
@@ -111,8 +124,26 @@ class Beam {
     least_rcp_[a] = hn::Set(D(), low), most_rcp_[a] = hn::Set(D(), high), middle_[a] = m;
   }
 
+  /// Where the rays are between t_enter and upper.
+  HWY_INLINE void enclose(const WideRays& rays, const float* upper, int a, float reach) {
+    V first = hn::Set(D(), std::numeric_limits<float>::max()), last = hn::Neg(first);
+    for (std::uint32_t i = 0; i < kWideBlock; i += hn::MaxLanes(D())) {
+      const V org = hn::Load(D(), rays.org[a] + i), dir = hn::Load(D(), rays.dir[a] + i);
+      const V begin = hn::MulAdd(hn::Load(D(), rays.t_enter + i), dir, org);
+      const V end = hn::MulAdd(hn::Load(D(), upper + i), dir, org);
+      first = hn::Min(first, hn::Min(begin, end)), last = hn::Max(last, hn::Max(begin, end));
+    }
+    const float low = hn::GetLane(hn::MinOfLanes(D(), first));
+    const float high = hn::GetLane(hn::MaxOfLanes(D(), last));
+    const float farthest = std::max({std::abs(least(rays.org[a])), std::abs(largest(rays.org[a])),
+                                     std::abs(low), std::abs(high), reach});
+    near_[a] = hn::Set(D(), low - 0x1p-21f * farthest);
+    far_[a] = hn::Set(D(), high + 0x1p-21f * farthest);
+  }
+
   std::uint32_t signs_;
-  bool is_narrow_;
+  bool has_one_octant_;
+  /// One octant: bounds of the constants. Several: the box, near its low, far its high planes.
   V least_rcp_[3], most_rcp_[3], middle_[3], near_[3], far_[3], enter_;
 };
 

@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
-/// A whole block of rays of one octant.
+/// A whole block of rays.
 template <int W, WideMode M>
 class Packet {
  public:
@@ -49,7 +49,7 @@ class Packet {
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
   /// What a child of a packet costs in visits of a node by a ray, and a triangle tested by a
   /// register of rays in tests of a block by a ray, inverse.
-  static constexpr int kRaysPerChild = 3, kTrianglesPerTest = 2;
+  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = 8, kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
   struct Waiting {
@@ -85,7 +85,8 @@ class Packet {
     const std::byte* node = job_.tree.at(id);
     typename NodeTest<W>::Hits hits;
     beam_.test(node, hn::Set(D(), farthest_), hits);
-    if (kRaysPerChild * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
+    const int dear = beam_.has_one_octant() ? kRaysPerChild : kMixedRaysPerChild;
+    if (dear * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
       return hand_over(id, rays);
     alignas(64) float enter[W];
     hn::Store(hits.enter[0], D(), enter);
@@ -103,19 +104,28 @@ class Packet {
     std::uint64_t met = 0;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       if ((rays >> first & kGroup) == 0) continue;
-      auto enter = hn::Load(D(), job_.rays.t_enter + first),
-           leave = hn::Load(D(), answers_.upper + first);
-      for (int a = 0; a < 3; ++a) {
-        const bool down = (beam_.signs() >> a & 1u) != 0;
-        const auto rcp = hn::Load(D(), job_.rays.rcp[a] + first);
-        const auto near = hn::Load(D(), job_.rays.near[a] + first);
-        const auto far = hn::Load(D(), job_.rays.far[a] + first);
-        enter = hn::Max(enter, hn::MulAdd(plane(node, down ? a + 3 : a, slot), rcp, near));
-        leave = hn::Min(leave, hn::MulAdd(plane(node, down ? a : a + 3, slot), rcp, far));
-      }
+      auto enter = hn::Load(D(), job_.rays.t_enter + first);
+      auto leave = hn::Load(D(), answers_.upper + first);
+      for (int a = 0; a < 3; ++a) narrow(node, slot, a, first, enter, leave);
       met |= std::uint64_t{bits_of(D(), hn::Le(enter, leave))} << first;
     }
     return met & rays;
+  }
+  /// To the part between the planes of one axis.
+  HWY_INLINE void narrow(const std::byte* node, std::uint32_t slot, int a, std::uint32_t first,
+                         typename L::V& enter, typename L::V& leave) const {
+    const auto rcp = hn::Load(D(), job_.rays.rcp[a] + first);
+    const auto near = hn::Load(D(), job_.rays.near[a] + first);
+    const auto far = hn::Load(D(), job_.rays.far[a] + first);
+    const auto low = plane(node, a, slot), high = plane(node, a + 3, slot);
+    if (beam_.has_one_octant()) {
+      const bool down = (beam_.signs() >> a & 1u) != 0;
+      enter = hn::Max(enter, hn::MulAdd(down ? high : low, rcp, near));
+      leave = hn::Min(leave, hn::MulAdd(down ? low : high, rcp, far));
+    } else {
+      enter = hn::Max(enter, hn::Min(hn::MulAdd(low, rcp, near), hn::MulAdd(high, rcp, near)));
+      leave = hn::Min(leave, hn::Max(hn::MulAdd(low, rcp, far), hn::MulAdd(high, rcp, far)));
+    }
   }
   HWY_INLINE static typename L::V plane(const std::byte* node, int row, std::uint32_t slot) {
     return hn::Set(D(), plane_row(node, W, row)[slot]);
@@ -205,7 +215,7 @@ class Packet {
 
   WideJob& job_;
   WideAnswers& answers_;
-  const Beam<W>& beam_;
+  Beam<W> beam_;
   std::uint32_t backward_;  ///< slot XOR it: farthest first
   Flight<W, M> flight_;
   std::uint64_t live_ = ~std::uint64_t{0};
@@ -219,11 +229,12 @@ template <int W, WideMode M>
 void fly(WideJob& job, std::uint64_t rays) {
   if (rays == 0) return;
   if (is_leaf(job.tree.root)) return traverse<W, M, false>(job, rays);
-  const Beam<W> beam(job.rays, rays, static_cast<float>(job.tree.frame.reach));
-  if (beam.is_narrow())
-    Packet<W, M>(job, beam).run();
-  else
+  if (rays != ~std::uint64_t{0}) {
     Flight<W, M>(job).run(rays, job.tree.root);
+    return;
+  }
+  const auto reach = static_cast<float>(job.tree.frame.reach);
+  Packet<W, M>(job, Beam<W>(job.rays, job.answers.upper, reach)).run();
 }
 
 }  // namespace HWY_NAMESPACE
