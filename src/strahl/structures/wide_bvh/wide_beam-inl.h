@@ -73,8 +73,8 @@ class Beam {
   HWY_INLINE void test_box(const std::byte* node, typename NodeTest<W>::Hits& hits) const {
     auto meets = hn::And(hn::Le(load(node, 0), far_[0]), hn::Ge(load(node, 3), near_[0]));
     for (int a = 1; a < 3; ++a)
-      meets = hn::And(meets, hn::And(hn::Le(load(node, a), far_[a]),
-                                     hn::Ge(load(node, a + 3), near_[a])));
+      meets = hn::And(meets,
+                      hn::And(hn::Le(load(node, a), far_[a]), hn::Ge(load(node, a + 3), near_[a])));
     hits.enter[0] = enter_;
     hits.bits = bits_of(D(), meets);
   }

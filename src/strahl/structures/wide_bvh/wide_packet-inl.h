@@ -49,7 +49,7 @@ class Packet {
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
   /// What a child of a packet costs in visits of a node by a ray, and a triangle tested by a
   /// register of rays in tests of a block by a ray, inverse.
-  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = 8, kTrianglesPerTest = 4;
+  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = 5, kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
   struct Waiting {
