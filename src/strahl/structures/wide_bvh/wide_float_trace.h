@@ -6,6 +6,7 @@
 // hits and for what the kernel cannot decide, so that a ray costs little more than its traversal.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -47,11 +48,8 @@ class WideFloatTrace {
     take(count);
     const auto reach = static_cast<float>(tree_.frame.reach);
     const std::uint64_t suited = kernel_.prepare(rays_, count, reach);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      known_.begin(i, rays_.upper[i], rays_.lower[i]);
-      answers[i] = Answer{};
-    }
-    known_.fronts = known_.found = 0;
+    known_.begin(rays_.upper, rays_.lower);
+    std::fill_n(answers, count, Answer{});
     WideJob job{tree_, rays_, known_, this, &resolve, {}, room_.get()};
     traverse_(job, suited);
     finish(count);
@@ -82,25 +80,19 @@ class WideFloatTrace {
     if constexpr (kIsAny) {
       for (std::uint32_t i = 0; i < count; ++i) answers_[i] |= std::uint8_t{known_.is_found(i)};
     } else {
-      std::uint64_t candidates = 0;
-      for (std::uint32_t i = 0; i < count; ++i)
-        candidates |= std::uint64_t{known_.candidate[i] != 0} << i;
-      if (candidates != 0) settle_all(candidates);
+      settle_all();
     }
   }
 
-  void settle_all(std::uint64_t candidates) {
-    if (tree_.has_exact_corners) {
-      alignas(64) double t[kWideBlock];
-      const std::uint64_t certain = kernel_.settle(tree_, rays_, known_, candidates, t);
-      for (std::uint64_t rest = certain; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
-        take_candidate(i, t[i]);
-      }
-      candidates &= ~certain;
+  void settle_all() {
+    alignas(64) double t[kWideBlock];
+    const WideSettled settled = kernel_.settle(tree_, rays_, known_, t);
+    for (std::uint64_t rest = settled.certain; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+      take_candidate(i, t[i]);
     }
-    for (; candidates != 0; candidates &= candidates - 1)
-      settle(static_cast<std::uint32_t>(std::countr_zero(candidates)));
+    for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
+      settle(static_cast<std::uint32_t>(std::countr_zero(rest)));
   }
 
   static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {

@@ -6,6 +6,7 @@
 // Thread safety: kernels are pure functions of their arguments.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -27,8 +28,8 @@ struct WideCounts {
 /// How the rays of a block are traced, where the instruction set leaves a choice.
 enum class WideBatch { interleaved, single };
 
-/// What is known of the hits of a block's rays; shared by kernel and resolve. Not initialised: only
-/// the rays put into it are there.
+/// What is known of the hits of a block's rays; shared by kernel and resolve. Rows are not
+/// initialised.
 struct WideAnswers {
   alignas(64) float upper[kWideBlock];  ///< lanes certainly behind it are not wanted
   float lower[kWideBlock];       ///< lanes certainly before it are better than all that is known
@@ -37,8 +38,10 @@ struct WideAnswers {
   std::uint64_t fronts = 0;                               ///< bits: the candidate is hit in front
   std::uint64_t found = 0;                                ///< bits, any: a lane is certainly hit
 
-  void begin(std::uint32_t ray, float ray_upper, float ray_lower) {
-    upper[ray] = ray_upper, lower[ray] = ray_lower, candidate[ray] = 0;
+  void begin(const float (&first_upper)[kWideBlock], const float (&first_lower)[kWideBlock]) {
+    std::copy_n(first_upper, kWideBlock, upper), std::copy_n(first_lower, kWideBlock, lower);
+    std::fill_n(candidate, kWideBlock, 0u);
+    fronts = found = 0;
   }
   bool is_front(std::uint32_t ray) const { return (fronts >> ray & 1u) != 0; }
   bool is_found(std::uint32_t ray) const { return (found >> ray & 1u) != 0; }
@@ -60,6 +63,11 @@ struct WideJob {
 /// @param rays bits of those of the block to be traced
 using WideTraverse = void (*)(WideJob& job, std::uint64_t rays);
 
+/// Bits of candidates whose canonical t is certain, and of those left.
+struct WideSettled {
+  std::uint64_t certain, left;
+};
+
 /// The traversals of one instruction set.
 struct WideKernel {
   const char* isa = "";
@@ -68,8 +76,8 @@ struct WideKernel {
   /// Makes float rays ready: wide_prepare-inl.h.
   std::uint64_t (*prepare)(WideRays& rays, std::uint32_t count, float reach) = nullptr;
   /// Canonical t of candidates: wide_settle-inl.h.
-  std::uint64_t (*settle)(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
-                          std::uint64_t which, double* t) = nullptr;
+  WideSettled (*settle)(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
+                        double* t) = nullptr;
   /// All rays at once, for closest and any without counts; null where that does not pay.
   WideTraverse fly[2][2] = {};
   int best_width = 8;  ///< what width=auto builds for it

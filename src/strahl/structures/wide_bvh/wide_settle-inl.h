@@ -89,20 +89,34 @@ class Settlement {
   V3 org_, dir_, ab_, ac_, to_a_;
 };
 
-/// Canonical t of the candidates of these rays, in a tree that holds the very corners.
-/// @return bits of those whose t is certain; t of the others is undefined
-inline std::uint64_t settle(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
-                            std::uint64_t which, double* t) {
+/// Bits of rays that have a candidate.
+inline std::uint64_t candidates_of(const WideAnswers& answers) {
+  const hn::CappedTag<std::uint32_t, 16> du;
+  std::uint64_t bits = 0;
+  for (std::uint32_t i = 0; i < kWideBlock; i += static_cast<std::uint32_t>(hn::MaxLanes(du))) {
+    const auto is_none = hn::Eq(hn::Load(du, answers.candidate + i), hn::Zero(du));
+    bits |= std::uint64_t{bits_of(du, hn::Not(is_none))} << i;
+  }
+  return bits;
+}
+
+/// Canonical t of candidates; undefined for those left: all where the tree does not hold the very
+/// corners.
+inline WideSettled settle(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
+                          double* t) {
+  const std::uint64_t candidates = candidates_of(answers);
+  if (candidates == 0 || !tree.has_exact_corners) return {0, candidates};
   CandidateCorners corners;
-  for (std::uint64_t rest = which; rest != 0; rest &= rest - 1)
+  for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1)
     corners.put(tree, answers, static_cast<std::uint32_t>(__builtin_ctzll(rest)));
   std::uint64_t certain = 0;
   constexpr std::uint64_t kGroup = (std::uint64_t{1} << Settlement::kLanes) - 1;
   for (std::uint32_t first = 0; first < kWideBlock; first += Settlement::kLanes) {
-    if ((which >> first & kGroup) == 0) continue;
+    if ((candidates >> first & kGroup) == 0) continue;
     certain |= std::uint64_t{Settlement(rays, corners, first).run(t + first)} << first;
   }
-  return certain & which;
+  certain &= candidates;
+  return {certain, candidates & ~certain};
 }
 
 }  // namespace HWY_NAMESPACE
