@@ -111,6 +111,36 @@ struct FloatRays {
     return out;
   }
 
+  /// Blocks of 64 short rays in all directions from about each place of a set, and blocks from
+  /// there to corners that follow each other in a mesh.
+  static FloatRays fans(const RaySet& set, const Scene& scene, std::uint64_t seed) {
+    const FloatRays all(set);
+    const TriangleMesh& mesh = scene.geometries().front().mesh;
+    const double size = norm_max(scene.total_bounds().extent());
+    FloatRays out;
+    Rng rng(seed);
+    const auto within = [&](double reach) {
+      return Vec3d{rng.uniform(-reach, reach), rng.uniform(-reach, reach),
+                   rng.uniform(-reach, reach)};
+    };
+    for (std::size_t i = 0; i < all.records.size() / 64; ++i) {
+      const Vec3f org = all.records[i].org;
+      const double reach = std::ldexp(size, -static_cast<int>(rng.below(9)));
+      const auto first =
+          static_cast<std::size_t>(rng.below(static_cast<std::uint32_t>(mesh.size())));
+      for (std::size_t k = 0; k < 64; ++k) {
+        if (i % 2 == 0)
+          out.records.push_back({Vec3f(Vec3d(org) + within(0.1 * reach)), 0.0f,
+                                 Vec3f(within(reach)), k % 16 == 5 ? 0.25f : 1.0f});
+        else
+          out.records.push_back({org, 0.0f,
+                                 Vec3f(mesh[(first + k / 3) % mesh.size()].b - Vec3d(org)),
+                                 k % 16 == 5 ? 1.0f : 2.0f});
+      }
+    }
+    return out;
+  }
+
   RayBatch batch() const {
     const auto* base = reinterpret_cast<const std::byte*>(records.data());
     constexpr std::size_t kStride = sizeof(Record);
@@ -158,7 +188,19 @@ TEST_P(WideKernels, AnswerBundlesOfFloatRaysLikeBvh) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
     SCOPED_TRACE(name);
     expect_like_bvh(scene, FloatRays::bundles(adversarial_rays(*scene, kManyRays, 79), 80),
-                    {"wide_bvh:width=8", "wide_bvh:width=8,batch=single"});
+                    {"wide_bvh:width=8", "wide_bvh:width=8,batch=single", "wide_bvh:width=16"});
+  }
+}
+
+/// What packets and flights share out between them.
+TEST_P(WideKernels, AnswerFansOfFloatRaysLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:5", "gen:soup:20000", "gen:terrain:64"}) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    const RaySet set = adversarial_rays(*scene, kManyRays, 80);
+    SCOPED_TRACE(name);
+    expect_like_bvh(scene, FloatRays::fans(set, *scene, 5),
+                    {"wide_bvh:width=8", "wide_bvh:width=16", "wide_bvh:quality=high"});
   }
 }
 
