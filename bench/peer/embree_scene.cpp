@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bench/peer/embree_scene.h>
 #include <cstring>
+#include <iterator>
 #include <vector>
 
 #include <immintrin.h>
@@ -40,18 +41,34 @@ void write_rows(const float* const from[4], float* x, float* y, float* z, float*
   _mm_store_ps(x, a), _mm_store_ps(y, b), _mm_store_ps(z, c), _mm_store_ps(w, d);
 }
 
-/// Up to eight rays; `valid` is -1 for those there are.
-void write_packet(std::span<const FloatRay> rays, RTCRay8& to, int* valid) {
-  for (std::size_t half = 0; half < 8; half += 4) {
+struct Packets8 {
+  using Ray = RTCRay8;
+  using RayHit = RTCRayHit8;
+  static constexpr std::size_t kRays = 8;
+  static constexpr auto intersect = &rtcIntersect8;
+  static constexpr auto occluded = &rtcOccluded8;
+};
+struct Packets16 {
+  using Ray = RTCRay16;
+  using RayHit = RTCRayHit16;
+  static constexpr std::size_t kRays = 16;
+  static constexpr auto intersect = &rtcIntersect16;
+  static constexpr auto occluded = &rtcOccluded16;
+};
+
+/// As many rays as a packet holds at most; `valid` is -1 for those there are.
+template <class Packet>
+void write_packet(std::span<const FloatRay> rays, Packet& to, int* valid) {
+  for (std::size_t first = 0; first < std::size(to.org_x); first += 4) {
     const float* from[4];
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t ray = std::min(half + i, rays.size() - 1);
+      const std::size_t ray = std::min(first + i, rays.size() - 1);
       from[i] = reinterpret_cast<const float*>(&rays[ray]);
-      valid[half + i] = half + i < rays.size() ? -1 : 0;
+      valid[first + i] = first + i < rays.size() ? -1 : 0;
     }
-    write_rows(from, to.org_x + half, to.org_y + half, to.org_z + half, to.tnear + half);
+    write_rows(from, to.org_x + first, to.org_y + first, to.org_z + first, to.tnear + first);
     for (const float*& f : from) f += 4;
-    write_rows(from, to.dir_x + half, to.dir_y + half, to.dir_z + half, to.tfar + half);
+    write_rows(from, to.dir_x + first, to.dir_y + first, to.dir_z + first, to.tfar + first);
   }
   std::memset(to.time, 0, sizeof to.time), std::memset(to.flags, 0, sizeof to.flags);
   std::memset(to.mask, 0xff, sizeof to.mask);
@@ -60,7 +77,8 @@ void write_packet(std::span<const FloatRay> rays, RTCRay8& to, int* valid) {
 RTCIntersectContext context_of(PeerApi api) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  if (api == PeerApi::coherent_packet || api == PeerApi::coherent_stream)
+  if (api == PeerApi::coherent_packet8 || api == PeerApi::coherent_packet16 ||
+      api == PeerApi::coherent_stream)
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
@@ -85,8 +103,10 @@ void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene)
-    : device_(rtcNewDevice("threads=1,set_affinity=0"), &rtcReleaseDevice),
+EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa)
+    : device_(rtcNewDevice(
+                  ("threads=1,set_affinity=0" + (isa.empty() ? "" : ",max_isa=" + isa)).c_str()),
+              &rtcReleaseDevice),
       scene_(rtcNewScene(device_.get()), &rtcReleaseScene) {
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
   for (const Geometry& geometry : scene.geometries())
@@ -101,8 +121,10 @@ void EmbreeScene::closest(PeerApi api, std::span<const FloatRay> rays,
                           std::span<Result> results) const {
   const FlushGuard flush;
   RTCIntersectContext context = context_of(api);
-  if (api == PeerApi::packet || api == PeerApi::coherent_packet)
-    return closest_packets(context, rays, results);
+  if (api == PeerApi::packet8 || api == PeerApi::coherent_packet8)
+    return closest_packets<Packets8>(context, rays, results);
+  if (api == PeerApi::packet16 || api == PeerApi::coherent_packet16)
+    return closest_packets<Packets16>(context, rays, results);
   if (api != PeerApi::single) return closest_streams(context, rays, results);
   RTCRayHit r{};
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -114,16 +136,17 @@ void EmbreeScene::closest(PeerApi api, std::span<const FloatRay> rays,
   }
 }
 
+template <class Api>
 void EmbreeScene::closest_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
                                   std::span<Result> results) const {
-  alignas(32) int valid[8];
-  RTCRayHit8 r{};
-  for (std::size_t i = 0; i < rays.size(); i += 8) {
-    const std::size_t count = std::min<std::size_t>(8, rays.size() - i);
+  alignas(64) int valid[Api::kRays];
+  typename Api::RayHit r{};
+  for (std::size_t i = 0; i < rays.size(); i += Api::kRays) {
+    const std::size_t count = std::min(Api::kRays, rays.size() - i);
     write_packet(rays.subspan(i, count), r.ray, valid);
     std::memset(r.hit.geomID, 0xff, sizeof r.hit.geomID);
     std::memset(r.hit.primID, 0xff, sizeof r.hit.primID);
-    rtcIntersect8(valid, scene_.get(), &context, &r);
+    Api::intersect(valid, scene_.get(), &context, &r);
     for (std::size_t k = 0; k < count; ++k)
       results[i + k] = {r.ray.tfar[k], r.hit.primID[k], r.hit.u[k], r.hit.v[k]};
   }
@@ -148,8 +171,10 @@ void EmbreeScene::any(PeerApi api, std::span<const FloatRay> rays,
                       std::span<std::uint8_t> occluded) const {
   const FlushGuard flush;
   RTCIntersectContext context = context_of(api);
-  if (api == PeerApi::packet || api == PeerApi::coherent_packet)
-    return any_packets(context, rays, occluded);
+  if (api == PeerApi::packet8 || api == PeerApi::coherent_packet8)
+    return any_packets<Packets8>(context, rays, occluded);
+  if (api == PeerApi::packet16 || api == PeerApi::coherent_packet16)
+    return any_packets<Packets16>(context, rays, occluded);
   if (api != PeerApi::single) return any_streams(context, rays, occluded);
   RTCRay r{};
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -159,14 +184,15 @@ void EmbreeScene::any(PeerApi api, std::span<const FloatRay> rays,
   }
 }
 
+template <class Api>
 void EmbreeScene::any_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
                               std::span<std::uint8_t> occluded) const {
-  alignas(32) int valid[8];
-  RTCRay8 r{};
-  for (std::size_t i = 0; i < rays.size(); i += 8) {
-    const std::size_t count = std::min<std::size_t>(8, rays.size() - i);
+  alignas(64) int valid[Api::kRays];
+  typename Api::Ray r{};
+  for (std::size_t i = 0; i < rays.size(); i += Api::kRays) {
+    const std::size_t count = std::min(Api::kRays, rays.size() - i);
     write_packet(rays.subspan(i, count), r, valid);
-    rtcOccluded8(valid, scene_.get(), &context, &r);
+    Api::occluded(valid, scene_.get(), &context, &r);
     for (std::size_t k = 0; k < count; ++k) occluded[i + k] = r.tfar[k] < 0.0f;
   }
 }
@@ -186,10 +212,14 @@ const char* name_of(PeerApi api) {
   switch (api) {
     case PeerApi::single:
       return "single";
-    case PeerApi::packet:
-      return "packet";
-    case PeerApi::coherent_packet:
-      return "coherent packet";
+    case PeerApi::packet8:
+      return "packet of 8";
+    case PeerApi::coherent_packet8:
+      return "coherent packet of 8";
+    case PeerApi::packet16:
+      return "packet of 16";
+    case PeerApi::coherent_packet16:
+      return "coherent packet of 16";
     case PeerApi::stream:
       return "stream";
     case PeerApi::coherent_stream:

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include <embree3/rtcore.h>
 
@@ -23,17 +24,28 @@ struct Result {
   float u, v;
 };
 
-/// How rays are handed over: one by one, eight at a time or in streams of kStream, the latter two
-/// also with the flag that calls them coherent.
-enum class PeerApi { single, packet, coherent_packet, stream, coherent_stream };
-inline constexpr PeerApi kPeerApis[] = {PeerApi::single, PeerApi::packet, PeerApi::coherent_packet,
-                                        PeerApi::stream, PeerApi::coherent_stream};
+/// How rays are handed over: one by one, eight or sixteen at a time or in streams of kStream, all
+/// but the first also with the flag that calls them coherent.
+enum class PeerApi {
+  single,
+  packet8,
+  coherent_packet8,
+  packet16,
+  coherent_packet16,
+  stream,
+  coherent_stream
+};
+inline constexpr PeerApi kPeerApis[] = {
+    PeerApi::single,         PeerApi::packet8,           PeerApi::coherent_packet8,
+    PeerApi::packet16,       PeerApi::coherent_packet16, PeerApi::stream,
+    PeerApi::coherent_stream};
 const char* name_of(PeerApi api);
 
 class EmbreeScene {
  public:
   /// All triangles of the scene, instances by identity only, one thread.
-  explicit EmbreeScene(const Scene& scene);
+  /// @param isa the best instruction set it may use; empty: any
+  EmbreeScene(const Scene& scene, const std::string& isa);
 
   void closest(PeerApi api, std::span<const FloatRay> rays, std::span<Result> results) const;
   void any(PeerApi api, std::span<const FloatRay> rays, std::span<std::uint8_t> occluded) const;
@@ -42,10 +54,12 @@ class EmbreeScene {
  private:
   static constexpr std::size_t kStream = 1024;
 
+  template <class Api>
   void closest_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
                        std::span<Result> results) const;
   void closest_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,
                        std::span<Result> results) const;
+  template <class Api>
   void any_packets(RTCIntersectContext& context, std::span<const FloatRay> rays,
                    std::span<std::uint8_t> occluded) const;
   void any_streams(RTCIntersectContext& context, std::span<const FloatRay> rays,

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <exception>
@@ -33,6 +34,7 @@ struct Options {
   int size = 512, repeat = 7;
   bool best_peer = false;
   std::string workload;  ///< the only one; all where empty
+  std::string isa;       ///< the best that either side may use; any where empty
 };
 
 bool is_peer(std::string_view name) { return name == "single" || name == "best"; }
@@ -41,7 +43,7 @@ bool is_peer(std::string_view name) { return name == "single" || name == "best";
 Options parse(int argc, char** argv) {
   const std::string usage =
       "usage: strahl_bench_peer [--peer single|best] [--spec SPEC,...] [--size N] [--repeat N] "
-      "[--workload NAME] SCENE...";
+      "[--workload NAME] [--isa avx512|avx2] SCENE...";
   Options options;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -55,6 +57,8 @@ Options parse(int argc, char** argv) {
       number(options.size);
     else if (argument == "--repeat")
       number(options.repeat);
+    else if (argument == "--isa" && i + 1 < argc)
+      options.isa = argv[++i];
     else if (argument == "--workload" && i + 1 < argc)
       options.workload = argv[++i];
     else if (argument == "--spec" && i + 1 < argc)
@@ -150,7 +154,7 @@ void race(const std::string& name, const Options& options, Ratios& all) {
   const auto scene = std::make_shared<const Scene>(load_scene_data(name));
   std::vector<std::unique_ptr<Accelerator>> built;
   for (const std::string& spec : options.specs) built.push_back(build(scene, spec));
-  const EmbreeScene peer(*scene);
+  const EmbreeScene peer(*scene, options.isa);
   const std::string label = name.substr(name.rfind('/') + 1);
   std::printf("%-22.22s %9u triangles; build s: peer %.3f", label.c_str(), scene->size(),
               peer.build_seconds());
@@ -192,6 +196,7 @@ void race(const std::string& name, const Options& options, Ratios& all) {
 }
 
 int run(const Options& options) {
+  if (!options.isa.empty()) ::setenv("STRAHL_ISA", options.isa.c_str(), 1);
   Ratios all;
   for (const std::string& scene : options.scenes) race(scene, options, all);
   std::printf("geometric means of the ratios\n");
