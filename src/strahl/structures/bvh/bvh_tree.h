@@ -49,6 +49,7 @@ class BvhTree final : public VolumeTree {
   }
   const BuildReport& report() const override { return report_; }
   Hierarchy hierarchy() const override;
+  std::optional<Hierarchy> box_hierarchy() const override;
   void validate(const PrimitiveSource& source, bool refers_once) const override;
   void hash_into(Hash64& hash) const override;
 

@@ -87,6 +87,16 @@ Hierarchy BvhTree<V>::hierarchy() const {
 }
 
 template <class V>
+std::optional<Hierarchy> BvhTree<V>::box_hierarchy() const {
+  if constexpr (std::is_same_v<V, AabbVolume> || std::is_same_v<V, KdopVolume<6>>) {
+    Hierarchy out = hierarchy();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) out.nodes[i].box = nodes_[i].volume.box();
+    return out;
+  }
+  return std::nullopt;
+}
+
+template <class V>
 void BvhTree<V>::validate(const PrimitiveSource& source, bool refers_once) const {
   BvhChecker<V>(*this, source, refers_once).run();
 }

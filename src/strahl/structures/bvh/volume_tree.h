@@ -1,6 +1,8 @@
 // structures/bvh/volume_tree.h - what a bvh holds: nodes over some kind of bounding volume.
 #pragma once
 
+#include <optional>
+
 #include <strahl/base/hash.h>
 #include <strahl/build/build_report.h>
 #include <strahl/build/hierarchy.h>
@@ -27,6 +29,8 @@ class VolumeTree {
   virtual const BuildReport& report() const = 0;
   /// Its nodes and references without boxes.
   virtual Hierarchy hierarchy() const = 0;
+  /// With boxes, where its volumes are boxes along the axes.
+  virtual std::optional<Hierarchy> box_hierarchy() const = 0;
   /// @param refers_once whether no primitive may be in two leaves
   virtual void validate(const PrimitiveSource& source, bool refers_once) const = 0;
   virtual void hash_into(Hash64& hash) const = 0;
