@@ -53,6 +53,12 @@ concept HasBoxTree = requires(const S& s) {
   { s.box_tree() } -> std::convertible_to<std::optional<BoxTree>>;
 };
 
+/// A tree whose bounding volumes can be looked at.
+template <class S>
+concept ShowsVolumes = requires(const S& s, const PreparedRay& ray) {
+  { s.first_volume(ray, 0) } -> std::same_as<VolumeEntry>;
+};
+
 /// S has kName, kTitle, kRefersOnce (or refers_once(), where options decide), Options, a
 /// constructor from (PrimitiveSource, Options, BuildContext), trace(), report(), validate(source),
 /// hash_into(hash).
@@ -93,6 +99,14 @@ class Erased final : public Accelerator {
       if (tree) return strahl::end_point_overlap(*tree, *scene_, context);
     }
     return std::nullopt;
+  }
+  VolumeEntry first_volume(const Ray& ray, int depth) const override {
+    if constexpr (ShowsVolumes<S>) {
+      const FpEnvGuard environment;
+      return structure_.first_volume(PreparedRay(ray, scene_->world_frame()), depth);
+    } else {
+      return Accelerator::first_volume(ray, depth);
+    }
   }
   std::uint64_t tree_hash() const override {
     const FpEnvGuard environment;

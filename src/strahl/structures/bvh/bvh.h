@@ -63,6 +63,9 @@ class Bvh {
   void hash_into(Hash64& hash) const {
     if (tree_) tree_->hash_into(hash);
   }
+  VolumeEntry first_volume(const PreparedRay& ray, int depth) const {
+    return tree_ ? tree_->first_volume(ray, depth) : VolumeEntry{};
+  }
   /// Nothing where the volumes are not boxes. O(nodes).
   std::optional<BoxTree> box_tree() const;
   const VolumeTree* tree() const { return tree_.get(); }

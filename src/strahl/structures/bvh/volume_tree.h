@@ -8,6 +8,7 @@
 #include <strahl/build/hierarchy.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/query/counters.h>
+#include <strahl/query/volume_entry.h>
 #include <strahl/structures/bvh/bvh_options.h>
 #include <strahl/traverse/leaf_query.h>
 
@@ -26,6 +27,8 @@ class VolumeTree {
                      NoCounters& counters) const = 0;
   virtual void trace(BvhTraversal traversal, const PreparedRay& ray, LeafQuery& leaves,
                      Counters& counters) const = 0;
+  /// See Accelerator::first_volume().
+  virtual VolumeEntry first_volume(const PreparedRay& ray, int depth) const = 0;
   virtual const BuildReport& report() const = 0;
   /// Its nodes and references without boxes.
   virtual Hierarchy hierarchy() const = 0;
