@@ -5,7 +5,7 @@
 //   nodes of what a visit costs times that area, over the area of the scene.
 // Method: each primitive's surface goes down the tree, cut to the box of every node that it does
 //   not belong to (geometry/surface_piece.h): triangles exact up to rounding, spheres and cones by
-//   patches of 1/16 of the box along the cut.
+//   small patches.
 // Thread safety: pure functions.
 #pragma once
 

@@ -7,8 +7,10 @@
 namespace strahl {
 namespace {
 
-/// Patches across a box, or across the whole, where they are cut.
-constexpr double kFineness = 16.0;
+/// Patches across a box or the surface, whichever is smaller, where they are cut.
+constexpr double kFineness = 8.0;
+/// Parts of the whole of which each is taken to be stretched evenly by an instance.
+constexpr double kStretchParts = 16.0;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -111,6 +113,11 @@ void CurvedSurface::finish() {
   if (is_placed_) longest_stretch_ = longest_stretch_of(to_world_);
   const Vec3d at = middle(whole());
   least_reach_ = std::max(0x1p-20 * reach(whole()), 0x1p-40 * norm_max(at));
+  width_ = 2.0 * longest_stretch_ * std::max(radius_, top_radius_);
+}
+
+double CurvedSurface::fine_reach(const Aabb& box) const {
+  return std::max(std::min(norm_max(box.extent()), width_) / kFineness, least_reach_);
 }
 
 Patch CurvedSurface::whole() const { return {0.0, is_sphere_ ? kPi : 1.0, 0.0, 2.0 * kPi}; }
@@ -141,7 +148,7 @@ double CurvedSurface::reach(const Patch& p) const {
 double CurvedSurface::area(const Patch& p) const {
   if (!is_placed_) return object_area(p);
   const Patch all = whole();
-  if (reach(p) * kFineness > reach(all)) {
+  if (reach(p) * kStretchParts > reach(all)) {
     const auto [first, second] = halves(p);
     return area(first) + area(second);
   }
@@ -149,10 +156,13 @@ double CurvedSurface::area(const Patch& p) const {
 }
 
 double CurvedSurface::share_inside(const Patch& p, const Aabb& box) const {
-  const Vec3d a = point(p.u0, p.v0), c = point(p.u1, p.v1);
+  std::array<Vec3d, 4> corner{point(p.u0, p.v0), point(p.u1, p.v0), point(p.u1, p.v1),
+                              point(p.u0, p.v1)};
+  const Vec3d mean = 0.25 * ((corner[0] + corner[2]) + (corner[1] + corner[3]));
+  for (Vec3d& c : corner) c = c + (2.0 / 3.0) * (middle(p) - mean);
   double whole = 0.0, inside = 0.0;
-  for (const Vec3d& b : {point(p.u1, p.v0), point(p.u0, p.v1)}) {
-    FlatPiece half({a, b, c});
+  for (const std::size_t side : {1u, 3u}) {
+    FlatPiece half({corner[0], corner[side], corner[2]});
     whole += half.area();
     half.cut_to(box);
     inside += half.area();
@@ -190,7 +200,7 @@ double CurvedSurface::stretch_at(double u, double v) const {
 }
 
 void CurvedPiece::cut_to(const Aabb& box) {
-  const double fine = std::max(norm_max(box.extent()) / kFineness, surface_->least_reach());
+  const double fine = surface_->fine_reach(box);
   std::vector<Patch> waiting = std::move(patches_);
   patches_.clear(), area_ = 0.0;
   while (!waiting.empty()) {

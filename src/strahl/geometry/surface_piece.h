@@ -2,9 +2,10 @@
 //
 // Triangles: convex polygons, cut plane by plane; exact up to rounding.
 // Spheres and cones: patches of two parameters, each inside a ball around its middle. A patch that
-//   may cross a face of the box is halved until its ball is smaller than 1/16 of the box; then it
-//   counts by the share that the two triangles between its corners have in the box. Errors measured
-//   (surface_piece_test.cpp): below 0.2 % of the surface or 1 % of the box's.
+//   may cross a face of the box is halved until its ball is smaller than 1/8 of the box and of the
+//   surface's width; then it counts by the share that two triangles have in the box, between its
+//   corners, moved to where the patch is in the mean. Errors are below 0.3 % of the surface and 1 %
+//   of what lies in a box much smaller than it (surface_piece_test.cpp).
 // Areas of patches are exact; under an instance the area in object space times the stretch at the
 //   middle, of parts of at most 1/16 of the whole.
 // Boxes that a piece is cut to one after the other lie in each other.
@@ -58,8 +59,8 @@ class CurvedSurface {
   double area(const Patch& patch) const;
   /// The part of its area inside the box, as if it was flat.
   double share_inside(const Patch& patch, const Aabb& box) const;
-  /// Patches are not halved below this.
-  double least_reach() const { return least_reach_; }
+  /// Patches that faces of the box cross are halved down to this.
+  double fine_reach(const Aabb& box) const;
 
  private:
   double radius_at(double u) const;
@@ -78,6 +79,7 @@ class CurvedSurface {
   Affine to_world_;
   bool is_placed_;  ///< under a map other than the identity
   double longest_stretch_ = 1.0, least_reach_ = 0.0;
+  double width_ = 0.0;  ///< largest diameter
 };
 
 /// Part of a sphere or cone inside boxes. The surface must outlive it.

@@ -69,7 +69,7 @@ TEST(CurvedPiece, OfASphereIsACap) {
     for (int axis = 0; axis < 3; ++axis) {
       Aabb box{{-1, 0, 1}, {3, 4, 5}};
       box.lo[axis] = box.hi[axis] - height;
-      EXPECT_NEAR(area_in(CurvedPiece(ball), box), 2.0 * kPi * 2.0 * height, 0.002 * 16.0 * kPi)
+      EXPECT_NEAR(area_in(CurvedPiece(ball), box), 2.0 * kPi * 2.0 * height, 0.003 * 16.0 * kPi)
           << height << ' ' << axis;
     }
 }
@@ -83,7 +83,7 @@ TEST(CurvedPiece, UnderAMapHasTheAreaOfItsImage) {
   const double e = std::sqrt(0.75);
   const double area = 2.0 * kPi * (1.0 + 2.0 / e * std::asin(e));
   EXPECT_NEAR(CurvedPiece(egg).area(), area, 0.001 * area);
-  EXPECT_NEAR(area_in(CurvedPiece(egg), {{-1, -2, -1}, {0, 2, 1}}), area / 2, 0.001 * area);
+  EXPECT_NEAR(area_in(CurvedPiece(egg), {{-1, -2, -1}, {0, 2, 1}}), area / 2, 0.002 * area);
 }
 
 /// A point of the surface, uniform by area.
@@ -124,6 +124,20 @@ TEST(CurvedPiece, AgreesWithRandomPoints) {
   expect_like_points(Sphere{{1, 2, 3}, 2.0}, {{-1.5, -0.5, 0.5}, {3.5, 4.5, 5.5}}, rng);
   expect_like_points(Cone{{1, 0, 0}, 3.0, {5, 0, 0}, 0.0}, {{0, -3, -3}, {6, 3, 3}}, rng);
   expect_like_points(Cone{{1, 0, 0}, 0.5, {9, 0, 0}, 0.5}, {{0, -1, -1}, {10, 1, 1}}, rng);
+}
+
+TEST(CurvedPiece, SeesPlanesOfBoxesMuchLargerThanItself) {
+  const CurvedSurface ball(Sphere{{1, 2, 3}, 0.5}, {});
+  const CurvedSurface tube(Cone{{-3, 2, 3}, 0.1, {5, 2, 3}, 0.1}, {});
+  const double sphere = kPi, rod = 0.2 * kPi * 8.0;
+  for (const double size : {2.0, 30.0, 1e4}) {
+    const Aabb eighth{{1, 2, 3}, {1 + size, 2 + size, 3 + size}};
+    EXPECT_NEAR(area_in(CurvedPiece(ball), eighth), sphere / 8, 0.001 * sphere) << size;
+    const Aabb cap{{1.3, -size, -size}, {size + 4, size + 4, size + 4}};
+    EXPECT_NEAR(area_in(CurvedPiece(ball), cap), sphere / 5, 0.001 * sphere) << size;
+    const Aabb half{{-size - 4, 2, -size}, {size + 4, size + 4, size + 4}};
+    EXPECT_NEAR(area_in(CurvedPiece(tube), half), rod / 2, 0.001 * rod) << size;
+  }
 }
 
 TEST(CurvedPiece, SeesBoxesMuchSmallerThanItself) {
