@@ -88,7 +88,8 @@ def compare(arguments, section, folder):
     done = subprocess.run(
         [arguments.strahl, "compare", *scenes.split(","), "--quiet", "--structures",
          ",".join(specs), "--workloads", workload, "--rays", str(arguments.rays), "--min-rays",
-         "2000", "--repeat", "5", "--budget", "0.25", "--maps", "none", "-o", folder],
+         "2000", "--repeat", "5", "--budget", "0.25", "--maps", "none", "-o", folder,
+         *(["--epo"] if section == "builders" else [])],
         stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     if done.returncode != 0:
         sys.exit(f"{section}: {done.stderr}")
@@ -160,15 +161,17 @@ def ranks(values):
 
 def print_correlations(document):
     """Spearman's correlation over the builders of what a ray costs with what a tree is like."""
-    keys = [key for key in ("sah_cost", "epo", "nodes")
-            if document["scenes"][0]["structures"][0]["build"].get(key) is not None]
-    print("\n| scene | " + " | ".join(keys) + " |\n|---" * 1 + "|---" * len(keys) + "|")
+    measures = {"SAH": lambda build: build["sah_cost"], "EPO": lambda build: build["epo"],
+                "0.29 SAH + 0.71 EPO": lambda build: 0.29 * build["sah_cost"] + 0.71 * build["epo"],
+                "nodes": lambda build: build["nodes"]}
+    print("\n| scene | " + " | ".join(measures) + " |\n|---" * 1 + "|---" * len(measures) + "|")
     for scene in document["scenes"]:
+        rows = scene["structures"]
         work = ranks([r["workloads"][0]["per_ray"]["N_BIT"] + r["workloads"][0]["per_ray"]["N_IT"]
-                      for r in scene["structures"]])
+                      for r in rows])
         cells = []
-        for key in keys:
-            other = ranks([r["build"][key] for r in scene["structures"]])
+        for measure in measures.values():
+            other = ranks([measure(r["build"]) for r in rows])
             n = len(work)
             apart = sum((a - b) ** 2 for a, b in zip(work, other))
             cells.append(f"{1 - 6 * apart / (n * (n * n - 1)):.2f}")

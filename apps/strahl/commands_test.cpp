@@ -71,6 +71,20 @@ TEST_F(Commands, InfoCountsTheSceneAndChecksTheStructure) {
       json["structure"]["tree_hash"]);
 }
 
+TEST_F(Commands, InfoPrintsTheOverlapOfTreesOfBoxesWhenAsked) {
+  const auto structure = [&](const std::string& rest) {
+    return run("info gen:balls:2 --json --structure " + rest).json()["structure"];
+  };
+  EXPECT_FALSE(structure("bvh").contains("epo"));
+  const nlohmann::json two = structure("bvh --epo --threads 2")["epo"];
+  EXPECT_GT(two, 0.0);
+  EXPECT_EQ(structure("bvh --epo --threads 1")["epo"], two);
+  EXPECT_TRUE(structure("grid --epo")["epo"].is_null());
+  EXPECT_NE(run("info gen:balls:2 --structure grid --epo").out.find("structure.epo "),
+            std::string::npos);
+  expect_error("info gen:balls:2 --epo", 2, "--structure");
+}
+
 TEST_F(Commands, UnreadableScenesAreBadInput) {
   expect_error("info absent.ply", 3, "absent.ply");
   expect_error("info scene.xyz", 3, "scene.xyz");

@@ -66,7 +66,7 @@ Json options_json(const CompareOptions& options) {
           {"rays", c.rays},        {"min_rays", c.min_rays},
           {"repeats", c.repeats},  {"seconds_per_cell", c.seconds_per_cell},
           {"seed", c.seed},        {"threads", options.threads},
-          {"maps", options.maps}};
+          {"maps", options.maps},  {"epo", c.with_overlap}};
 }
 
 /// The file of a scene's results: named by everything they depend on but the machine.
@@ -213,6 +213,8 @@ void add_compare_command(CLI::App& app, Runner& run) {
       ->check(CLI::Range(0.001, 1e6));
   command->add_option("--maps", options->maps, "Size of heat maps, or none (default: 256x192)")
       ->type_name("WxH");
+  command->add_flag("--epo", c.with_overlap,
+                    "Also the end-point overlap of trees of boxes, see 'strahl info' (slow)");
   command->add_option("--seed", c.seed, "Of the random numbers in rays");
   command->add_option("-o,--output", options->output, "Folder of results")
       ->required()

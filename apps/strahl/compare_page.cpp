@@ -108,16 +108,19 @@ std::string scene_table(const Json& scene) {
   const Json& rows = scene["structures"];
   std::string text =
       "<div class=\"wide\"><table><tr><th>structure</th><th>build s</th><th>B/prim."
-      "</th>";
+      "</th><th>SAH</th><th>EPO</th>";
   for (const Json& workload : scene["workloads"]) {
     const std::string name = escaped(workload["workload"]);
     text += fmt::format("<th>{0}<br>Mrays/s</th><th>{0}<br>steps</th><th>{0}<br>tests</th>", name);
   }
   text += "</tr>\n";
   for (const Json& row : rows) {
+    const Json& overlap = row["build"]["epo"];
     text += "<tr>" + cell(escaped(row["spec"])) +
             cell(number(row["build"]["seconds"].get<double>())) +
-            cell(number(row["build"]["bytes_per_primitive"].get<double>()));
+            cell(number(row["build"]["bytes_per_primitive"].get<double>())) +
+            cell(number(row["build"]["sah_cost"].get<double>())) +
+            cell(overlap.is_null() ? "-" : number(overlap.get<double>()));
     for (std::size_t w = 0; w < row["workloads"].size(); ++w) {
       const Json& at = row["workloads"][w];
       const double mrays = at["mrays"].get<double>();

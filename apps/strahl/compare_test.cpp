@@ -85,6 +85,17 @@ TEST_F(CompareCommand, OneStructureWithoutMapsIsEnough) {
   EXPECT_EQ(finished.json()["summary"]["workloads"][0]["structures"][0]["mean_rank"], 1.0);
 }
 
+TEST_F(CompareCommand, TellsTheOverlapOfTreesOfBoxesWhenAsked) {
+  const std::string command = "compare gen:balls:1" + std::string(kSmall);
+  const auto plain = run(command).json();
+  EXPECT_TRUE(plain["scenes"][0]["structures"][0]["build"]["epo"].is_null());
+  const auto asked = run(command + " --epo").json();
+  EXPECT_GT(asked["scenes"][0]["structures"][0]["build"]["epo"], 0.0);
+  EXPECT_TRUE(asked["scenes"][0]["structures"][2]["build"]["epo"].is_null());
+  EXPECT_NE(folder_.read("out/compare.md").find("| SAH | EPO |"), std::string::npos);
+  EXPECT_NE(folder_.read("out/compare.csv").find(",sah_cost,epo,"), std::string::npos);
+}
+
 TEST_F(CompareCommand, GoesOnWhereItWasUnlessSomethingElseIsAsked) {
   const std::string command = "compare gen:balls:1" + std::string(kSmall);
   const Finished first = run(command), again = run(command), other = run(command + " --seed 2");

@@ -67,11 +67,13 @@ Json row_json(const ComparisonRow& row, const ComparisonRow& first, std::uint32_
   Json build = to_json(row.build);
   build["bytes_per_primitive"] =
       static_cast<double>(row.build.bytes) / std::max<std::uint32_t>(primitives, 1);
+  build["epo"] = to_json(row.overlap);
   return {{"spec", row.spec}, {"build", build}, {"workloads", cells}};
 }
 
-/// "0.123" or, above 100, without decimals.
+/// "0.123" or, above 100, without decimals; "-" for what there is not.
 std::string number(const Json& value) {
+  if (value.is_null()) return "-";
   const double v = value.get<double>();
   return v >= 100.0 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
 }
@@ -79,7 +81,8 @@ std::string number(const Json& value) {
 std::string scene_table(const Json& scene) {
   std::string text = fmt::format("## {}\n\n{} primitives\n\n", scene["scene"].get<std::string>(),
                                  scene["primitives"].dump());
-  std::string head = "| structure | build s | B/primitive |", rule = "|---|---|---|";
+  std::string head = "| structure | build s | B/primitive | SAH | EPO |",
+              rule = "|---|---|---|---|---|";
   for (const Json& workload : scene["workloads"]) {
     const auto name = workload["workload"].get<std::string>();
     head += fmt::format(" {0} Mrays/s | time | N_TS | N_ETS | N_IT |", name);
@@ -88,8 +91,9 @@ std::string scene_table(const Json& scene) {
   text += head + "\n" + rule + "\n";
   for (const Json& row : scene["structures"]) {
     const Json& build = row["build"];
-    text += fmt::format("| `{}` | {} | {} |", row["spec"].get<std::string>(),
-                        number(build["seconds"]), number(build["bytes_per_primitive"]));
+    text += fmt::format("| `{}` | {} | {} | {} | {} |", row["spec"].get<std::string>(),
+                        number(build["seconds"]), number(build["bytes_per_primitive"]),
+                        number(build["sah_cost"]), number(build["epo"]));
     for (const Json& cell : row["workloads"]) {
       const Json &time = cell["time_to_first"], &counts = cell["per_ray"];
       text += fmt::format(" {} | {} ({} to {}) | {} | {} | {} |", number(cell["mrays"]),
@@ -123,7 +127,7 @@ Json to_json(const SceneComparison& comparison, const Scene& scene) {
 std::string compare_csv(const Json& document) {
   std::string text =
       "scene,structure,workload,build_seconds,bytes,nodes,leaves,empty_leaves,references,sah_cost,"
-      "rays,mrays,time_to_first,time_low,time_high,N_TS,N_ETS,N_EETS,N_IT,N_BIT\n";
+      "epo,rays,mrays,time_to_first,time_low,time_high,N_TS,N_ETS,N_EETS,N_IT,N_BIT\n";
   for (const Json& scene : document["scenes"])
     for (const Json& row : scene["structures"])
       for (const Json& cell : row["workloads"]) {
@@ -133,6 +137,7 @@ std::string compare_csv(const Json& document) {
         for (const char* key :
              {"seconds", "bytes", "nodes", "leaves", "empty_leaves", "references", "sah_cost"})
           text += "," + row["build"][key].dump();
+        text += "," + (row["build"]["epo"].is_null() ? "" : row["build"]["epo"].dump());
         text += "," + cell["rays"].dump() + "," + cell["mrays"].dump();
         for (const Json& value : cell["time_to_first"]) text += "," + value.dump();
         for (const Json& value : cell["per_ray"]) text += "," + value.dump();
@@ -149,7 +154,8 @@ std::string compare_markdown(const Json& document) {
   };
   std::string text = fmt::format(
       "# Comparison\n\nTime: of a ray, relative to `{}`, with the 95 % interval over repeats. "
-      "Steps (N_TS), leaves or cells (N_ETS) and primitive tests (N_IT) are per ray.\n\n",
+      "Steps (N_TS), leaves or cells (N_ETS) and primitive tests (N_IT) are per ray. SAH: "
+      "expected cost of a random line in steps; EPO: end-point overlap, with --epo.\n\n",
       first());
   text += summary_markdown(document["summary"]);
   for (const Json& scene : document["scenes"]) text += scene_table(scene);

@@ -16,6 +16,7 @@
 #include <strahl/io/png.h>
 #include <strahl/io/text_cursor.h>
 #include <strahl/render/framing.h>
+#include <strahl/render/volume_overlay.h>
 
 namespace strahl::cli {
 
@@ -117,8 +118,10 @@ int run_render(const RenderArguments& arguments) {
   const std::unique_ptr<Accelerator> accelerator = session.build(
       scene, arguments.spec.empty() ? std::string(kDefaultSpec) : arguments.spec, rays_of(options));
   const Timer timer;
-  const RenderResult result = render(*accelerator, options, session.context());
+  RenderResult result = render(*accelerator, options, session.context());
   const double seconds = timer.seconds();
+  if (arguments.volumes >= 0)
+    draw_volumes(*accelerator, options.view, arguments.volumes, result.image, session.context());
   session.finish_progress();
   write_image(arguments.output, format, result.image);
   if (arguments.json) {
@@ -142,6 +145,16 @@ void add_view_options(CLI::App& command, RenderArguments& arguments) {
   command.add_option("--fov", arguments.fov, "Full vertical angle of view")->type_name("DEG");
   command.add_option("--size", arguments.size, "Size (default: the scene's, else 800x600)")
       ->type_name("WxH");
+}
+
+void add_volume_option(CLI::App& command, RenderArguments& arguments) {
+  command
+      .add_option("--volumes", arguments.volumes,
+                  "Draw the bounding volumes of the nodes at that depth (bvh only)")
+      ->type_name("DEPTH")
+      ->check(CLI::Range(0, 64))
+      ->excludes(command.get_option("--corners"))
+      ->excludes(command.get_option("--frames"));
 }
 
 void add_frame_options(CLI::App& command, RenderArguments& arguments) {
@@ -173,6 +186,7 @@ void add_render_command(CLI::App& app, Runner& run) {
       "The view is that of the scene, else one that frames it; each part can be overridden.\n"
       "EXR files also hold depth (Z), normals (N.X, N.Y, N.Z) and primitive_id, geometry_id,\n"
       "instance_id of the pixels' centres. The picture does not depend on structure and threads.\n"
+      "With --volumes the bounding volumes of a level of a bvh lie over the picture.\n"
       "With --frames the scene moves, from the start to the end of its animation or of a motion\n"
       "file; two_level only updates what moves, bvh is fitted to it and to what skins and morph\n"
       "targets deform, other structures are built anew for each frame.\n"
@@ -180,6 +194,7 @@ void add_render_command(CLI::App& app, Runner& run) {
       "  strahl render bunny.ply -o bunny.png --size 1024x768\n"
       "  strahl render robot.glb -o robot.exr --mode path --spp 64\n"
       "  strahl render gen:balls:4 --corners --mode depth --json\n"
+      "  strahl render teapot.obj -o teapot.png --structure bvh:bv=obb --volumes 4\n"
       "  strahl render robot.glb -o robot.png --frames 100      (robot_0000.png ...)\n"
       "  strahl render city.glb -o city.png --frames 100 --motion cars.json --verify");
   auto arguments = std::make_shared<RenderArguments>();
@@ -197,6 +212,7 @@ void add_render_command(CLI::App& app, Runner& run) {
   add_view_options(*command, *arguments);
   add_common_options(*command, *arguments);
   add_frame_options(*command, *arguments);
+  add_volume_option(*command, *arguments);
   command->callback([=, &run] {
     run = [=] { return arguments->frames > 0 ? run_frames(*arguments) : run_render(*arguments); };
   });

@@ -15,7 +15,8 @@ struct RenderArguments : CommonOptions {
   int samples = 0;
   std::uint64_t seed = 1;
   bool corners = false;
-  int frames = 0;  ///< 0: a single picture
+  int volumes = -1;  ///< depth of those that are drawn; below 0: none
+  int frames = 0;    ///< 0: a single picture
   std::string motion, animation;
   bool verify = false;
 };

@@ -55,6 +55,20 @@ TEST_F(RenderCommand, ViewCanBeGiven) {
   EXPECT_EQ(json["primary_hits"], json["primary_rays"]) << "the ground fills the picture";
 }
 
+TEST_F(RenderCommand, DrawsTheVolumesOfALevel) {
+  const std::string common = "render gen:balls:2 --size 50x40 --structure ";
+  ASSERT_EQ(run(common + "bvh -o plain.png").code, 0);
+  ASSERT_EQ(run(common + "bvh:bv=obb -o obb.png --volumes 3 --threads 1").code, 0);
+  ASSERT_EQ(run(common + "bvh:bv=obb -o again.png --volumes 3 --threads 2").code, 0);
+  ASSERT_EQ(run(common + "bvh -o deeper.png --volumes 5").code, 0);
+  EXPECT_TRUE(folder_.read("obb.png") == folder_.read("again.png"));
+  EXPECT_FALSE(folder_.read("obb.png") == folder_.read("plain.png"));
+  EXPECT_FALSE(folder_.read("deeper.png") == folder_.read("plain.png"));
+  expect_error(common + "grid -o out.png --volumes 3", 2, "volumes");
+  expect_error(common + "bvh -o out.png --volumes 3 --frames 2", 2, "--frames");
+  expect_error(common + "bvh -o out.png --volumes 3 --corners", 2, "--corners");
+}
+
 TEST_F(RenderCommand, WrongArgumentsAreRefused) {
   const std::string common = "render gen:balls:1 ";
   expect_error(common, 2, "--output");

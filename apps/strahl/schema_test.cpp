@@ -58,6 +58,7 @@ TEST_F(Schemas, DescribeWhatTheCommandsPrint) {
   expect_schema("list", "");
   expect_schema("info", "gen:balls:1 --structure bvh");
   expect_schema("info", "empty.off --structure bvh");
+  expect_schema("info", "gen:balls:1 --structure bvh --epo");
   expect_schema("check", "gen:balls:1");
   expect_schema("query", "gen:balls:1 --rays rays.npy --count");
   expect_schema("advise", "gen:balls:1 --rays 1000");

@@ -133,6 +133,8 @@ Json to_json(const BuildReport& report) {
   return json;
 }
 
+Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
 Json to_json(const Counters& counters) {
   return {{"traversal_steps", counters.traversal_steps},
           {"leaves", counters.leaves},

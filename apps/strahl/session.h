@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/App.hpp>
@@ -87,6 +88,8 @@ Json to_json(const Vec3d& v);
 /// {"min": [...], "max": [...]}, null for an empty box.
 Json to_json(const Aabb& box);
 Json to_json(const BuildReport& report);
+/// null where there is none.
+Json to_json(const std::optional<double>& value);
 Json to_json(const Counters& counters);
 
 }  // namespace strahl::cli

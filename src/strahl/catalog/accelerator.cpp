@@ -114,6 +114,12 @@ Hit Accelerator::closest_hit(const Ray& ray) const {
   return hit;
 }
 
+std::optional<double> Accelerator::end_point_overlap(const BuildContext&) const { return {}; }
+
+VolumeEntry Accelerator::first_volume(const Ray&, int) const {
+  throw Error(ErrorCode::unsupported, "this structure does not show its volumes; bvh does", spec_);
+}
+
 void Accelerator::require_pose(const Scene& moved) const {
   if (has_same_things(*scene_, moved)) return;
   throw Error(ErrorCode::usage, "the scene to follow has other things than the one built over",

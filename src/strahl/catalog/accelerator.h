@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include <strahl/build/build_report.h>
 #include <strahl/query/counters.h>
 #include <strahl/query/ray_batch.h>
+#include <strahl/query/volume_entry.h>
 
 namespace strahl {
 
@@ -118,6 +120,15 @@ class Accelerator {
   virtual void validate() const = 0;
   /// Content hash of the built structure: equal for any number of threads.
   virtual std::uint64_t tree_hash() const = 0;
+  /// What visits of nodes cost that hold the end of a ray, but not the primitive it ends on
+  /// [Aila2013]; in steps, as sah_cost. Nothing for structures other than trees of boxes around
+  /// primitives of the scene: cells of divided space hold no surface but that of their own
+  /// primitives. Costly: O(primitives * boxes they reach). Throws Error{cancelled}.
+  virtual std::optional<double> end_point_overlap(const BuildContext& context) const;
+  /// The first bounding volume that a valid ray enters from outside, of the nodes at that depth of
+  /// the tree and of leaves above it. For pictures: entries are early by the volumes' margins.
+  /// Throws Error{unsupported} unless the structure shows its volumes. O(nodes above).
+  virtual VolumeEntry first_volume(const Ray& ray, int depth) const;
   /// Follows the instances to a pose of the scene (Scene::posed), cheaper than a build and with its
   /// result; seconds of the report are those of this call. Not while rays are traced.
   /// Throws Error: unsupported unless the structure can move; usage for a scene that is not a pose

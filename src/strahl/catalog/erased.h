@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <bit>
 #include <concepts>
+#include <optional>
 #include <utility>
 
 #include <strahl/base/fp_env.h>
 #include <strahl/base/hash.h>
 #include <strahl/base/timer.h>
+#include <strahl/build/end_point_overlap.h>
 #include <strahl/catalog/accelerator.h>
 #include <strahl/catalog/catalog.h>
 #include <strahl/query/float_rays.h>
@@ -45,6 +47,18 @@ concept Moves = requires(S& s, const Scene& pose, const BuildContext& context) {
   s.move(pose, context);
 };
 
+/// A structure that is a tree of boxes, under all of its options or some.
+template <class S>
+concept HasBoxTree = requires(const S& s) {
+  { s.box_tree() } -> std::convertible_to<std::optional<BoxTree>>;
+};
+
+/// A tree whose bounding volumes can be looked at.
+template <class S>
+concept ShowsVolumes = requires(const S& s, const PreparedRay& ray) {
+  { s.first_volume(ray, 0) } -> std::same_as<VolumeEntry>;
+};
+
 /// S has kName, kTitle, kRefersOnce (or refers_once(), where options decide), Options, a
 /// constructor from (PrimitiveSource, Options, BuildContext), trace(), report(), validate(source),
 /// hash_into(hash).
@@ -76,6 +90,22 @@ class Erased final : public Accelerator {
       seconds_ = timer.seconds();
     } else {
       Accelerator::update(std::move(moved), context);
+    }
+  }
+  std::optional<double> end_point_overlap(const BuildContext& context) const override {
+    if constexpr (HasBoxTree<S>) {
+      const FpEnvGuard environment;
+      const std::optional<BoxTree> tree = structure_.box_tree();
+      if (tree) return strahl::end_point_overlap(*tree, *scene_, context);
+    }
+    return std::nullopt;
+  }
+  VolumeEntry first_volume(const Ray& ray, int depth) const override {
+    if constexpr (ShowsVolumes<S>) {
+      const FpEnvGuard environment;
+      return structure_.first_volume(PreparedRay(ray, scene_->world_frame()), depth);
+    } else {
+      return Accelerator::first_volume(ray, depth);
     }
   }
   std::uint64_t tree_hash() const override {

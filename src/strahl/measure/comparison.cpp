@@ -73,7 +73,7 @@ class Comparison {
       const Stopwatch watch(context.executor);
       built_.push_back(build(scene, spec, context));
       build_seconds_.push_back(watch.seconds());
-      result_.rows.push_back({built_.back()->spec(), {}, {}, {}});
+      result_.rows.push_back({built_.back()->spec(), {}, {}, {}, {}});
     }
   }
 
@@ -90,6 +90,7 @@ class Comparison {
     for (std::size_t i = 0; i < built_.size(); ++i) {
       result_.rows[i].build = built_[i]->report();
       result_.rows[i].build.seconds = build_seconds_[i];
+      if (options_.with_overlap) result_.rows[i].overlap = built_[i]->end_point_overlap(context_);
     }
     return std::move(result_);
   }

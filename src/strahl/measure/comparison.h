@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct ComparisonOptions {
   double seconds_per_cell = 2.0;  ///< that all repeats of one structure on one workload may take
   std::uint64_t seed = 1;
   int map_width = 0, map_height = 0;  ///< of heat maps from the view; 0: none
+  bool with_overlap = false;          ///< also Accelerator::end_point_overlap(), which is slow
 };
 
 /// Work of the rays through the pixels' centres, row by row from the top; empty without maps.
@@ -43,6 +45,7 @@ struct ComparisonCell {
 struct ComparisonRow {
   std::string spec;
   BuildReport build;                  ///< after all rays; seconds by Stopwatch
+  std::optional<double> overlap;      ///< end-point overlap, where asked for and there is one
   std::vector<ComparisonCell> cells;  ///< in the order of the workloads
   WorkMaps maps;
 };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <strahl/base/error.h>
+#include <strahl/catalog/catalog.h>
 #include <strahl/io/generators.h>
 #include <strahl/measure/comparison.h>
 
@@ -34,6 +35,17 @@ TEST(SpreadBlocks, TakesWholeBlocksEvenlyAndNeverMoreThanThereAre) {
   EXPECT_EQ(std::set<std::size_t>(at.begin(), at.end()).size(), at.size());
   EXPECT_EQ(at[64], 640u);
   EXPECT_GT(at.back(), 63000u);
+}
+
+TEST(Comparison, TellsTheOverlapOnlyWhenAsked) {
+  const auto scene = scene_of("balls:2");
+  ComparisonOptions options = small_options();
+  options.workloads = {WorkloadKind::random};
+  EXPECT_FALSE(compare_structures(scene, *scene->data().view, options).rows[0].overlap);
+  options.with_overlap = true;
+  const SceneComparison c = compare_structures(scene, *scene->data().view, options);
+  EXPECT_EQ(c.rows[0].overlap, build(scene, "bvh")->end_point_overlap({}));
+  EXPECT_FALSE(c.rows[1].overlap);
 }
 
 TEST(Comparison, MeasuresEveryStructureOnEveryWorkload) {

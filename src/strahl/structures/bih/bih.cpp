@@ -32,6 +32,13 @@ Tree divide(std::vector<PrimRef> refs, const Aabb& box, const BihOptions& option
   return build_object_tree(*splitter, refs.size(), box, rules, context);
 }
 
+/// What a node leaves of its box to child c.
+Aabb child_box(const BihNode& node, std::uint32_t c, const Aabb& box) {
+  if (!node.is_trimmed()) return node.side(c).cut(box);
+  const int axis = node.trimmed_axis();
+  return AxisSide{axis, false, node.plane(1)}.cut(AxisSide{axis, true, node.plane(0)}.cut(box));
+}
+
 }  // namespace
 
 OptionTable<BihOptions> option_fields(const BihOptions*) {
@@ -57,7 +64,8 @@ OptionTable<BihOptions> option_fields(const BihOptions*) {
   };
 }
 
-Bih::Bih(const PrimitiveSource& source, const Options& options, const BuildContext& context) {
+Bih::Bih(const PrimitiveSource& source, const Options& options, const BuildContext& context)
+    : reference_cost_(options.intersect_cost / options.traverse_cost) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   if (refs.empty()) return;
   for (const PrimRef& ref : refs) root_box_.extend(ref.box);
@@ -78,6 +86,24 @@ Bih::Bih(const PrimitiveSource& source, const Options& options, const BuildConte
 
 void Bih::validate(const PrimitiveSource& source) const {
   validate_bih(tree_, root_box_, report_, source);
+}
+
+BoxTree Bih::box_tree() const {
+  BoxTree out{{std::vector<HierarchyNode>(tree_.nodes.size()), tree_.references},
+              {1.0, 0.0, reference_cost_}};
+  std::vector<HierarchyNode>& nodes = out.nodes.nodes;
+  if (!nodes.empty()) nodes[0].box = root_box_;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const BihNode& from = tree_.nodes[i];
+    if (from.is_leaf()) {
+      nodes[i].first = from.first(), nodes[i].count = from.count();
+      continue;
+    }
+    nodes[i].first = from.child(), nodes[i].children = from.is_trimmed() ? 1 : 2;
+    for (std::uint32_t c = 0; c < nodes[i].children; ++c)
+      nodes[from.child() + c].box = child_box(from, c, nodes[i].box);
+  }
+  return out;
 }
 
 void Bih::hash_into(Hash64& hash) const {

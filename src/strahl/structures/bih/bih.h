@@ -20,6 +20,7 @@
 #include <strahl/base/build_context.h>
 #include <strahl/base/hash.h>
 #include <strahl/base/options.h>
+#include <strahl/build/box_tree.h>
 #include <strahl/build/build_report.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/structures/bih/bih_node.h>
@@ -65,6 +66,8 @@ class Bih {
   /// Throws std::logic_error naming the first broken invariant.
   void validate(const PrimitiveSource& source) const;
   void hash_into(Hash64& hash) const;
+  /// With the implicit boxes. O(nodes).
+  BoxTree box_tree() const;
 
   // What walk() asks for.
   NodeVisit enter(const PreparedRay& ray) const {
@@ -106,6 +109,7 @@ class Bih {
   BihArrays tree_;
   Aabb root_box_;
   BuildReport report_;
+  double reference_cost_;  ///< of a test, a node step being 1
 };
 
 }  // namespace strahl

@@ -102,6 +102,12 @@ void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
   *this = Bvh(source, options_, context);
 }
 
+std::optional<BoxTree> Bvh::box_tree() const {
+  std::optional<Hierarchy> nodes = tree_ ? tree_->box_hierarchy() : Hierarchy{};
+  if (!nodes) return std::nullopt;
+  return BoxTree{*std::move(nodes), {1.0, 0.0, options_.intersect_cost / options_.traverse_cost}};
+}
+
 void Bvh::validate(const PrimitiveSource& source) const {
   if (tree_) return tree_->validate(source, refers_once_);
   for (std::uint32_t i = 0; i < source.size(); ++i)

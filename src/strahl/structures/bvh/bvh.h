@@ -15,9 +15,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <type_traits>
 
 #include <strahl/bounds/aabb_volume.h>
+#include <strahl/build/box_tree.h>
 #include <strahl/geometry/scene.h>
 #include <strahl/query/policies.h>
 #include <strahl/structures/bvh/bvh_tree.h>
@@ -61,6 +63,11 @@ class Bvh {
   void hash_into(Hash64& hash) const {
     if (tree_) tree_->hash_into(hash);
   }
+  VolumeEntry first_volume(const PreparedRay& ray, int depth) const {
+    return tree_ ? tree_->first_volume(ray, depth) : VolumeEntry{};
+  }
+  /// Nothing where the volumes are not boxes. O(nodes).
+  std::optional<BoxTree> box_tree() const;
   const VolumeTree* tree() const { return tree_.get(); }
 
  private:

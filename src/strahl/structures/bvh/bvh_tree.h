@@ -47,8 +47,10 @@ class BvhTree final : public VolumeTree {
              Counters& counters) const override {
     trace_in(traversal, ray, leaves, counters);
   }
+  VolumeEntry first_volume(const PreparedRay& ray, int depth) const override;
   const BuildReport& report() const override { return report_; }
   Hierarchy hierarchy() const override;
+  std::optional<Hierarchy> box_hierarchy() const override;
   void validate(const PrimitiveSource& source, bool refers_once) const override;
   void hash_into(Hash64& hash) const override;
 

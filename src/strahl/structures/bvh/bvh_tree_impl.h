@@ -47,6 +47,27 @@ void BvhTree<V>::trace_in(BvhTraversal traversal, const PreparedRay& ray, LeafQu
 }
 
 template <class V>
+VolumeEntry BvhTree<V>::first_volume(const PreparedRay& ray, int depth) const {
+  const typename V::RayData data(ray, world_);
+  VolumeEntry first;
+  std::vector<std::pair<std::uint32_t, int>> waiting{{0, 0}};
+  while (!waiting.empty()) {
+    const auto [at, level] = waiting.back();
+    waiting.pop_back();
+    const Node& node = nodes_[at];
+    if (level < depth && !node.is_leaf()) {
+      for (std::uint32_t c = 0; c < node.size(); ++c)
+        waiting.emplace_back(node.first + c, level + 1);
+      continue;
+    }
+    const Interval span = node.volume.clip(data, {ray.t_enter, ray.t_exit});
+    const bool comes_from_outside = span.t_enter > ray.t_enter && span.t_enter <= span.t_exit;
+    if (comes_from_outside && span.t_enter < first.t) first = {span.t_enter, at};
+  }
+  return first;
+}
+
+template <class V>
 double BvhTree<V>::sah_cost() const {
   const double whole = nodes_[0].volume.half_area();
   double sum = 0.0;
@@ -84,6 +105,16 @@ Hierarchy BvhTree<V>::hierarchy() const {
   }
   out.references = references_;
   return out;
+}
+
+template <class V>
+std::optional<Hierarchy> BvhTree<V>::box_hierarchy() const {
+  if constexpr (std::is_same_v<V, AabbVolume> || std::is_same_v<V, KdopVolume<6>>) {
+    Hierarchy out = hierarchy();
+    for (std::size_t i = 0; i < nodes_.size(); ++i) out.nodes[i].box = nodes_[i].volume.box();
+    return out;
+  }
+  return std::nullopt;
 }
 
 template <class V>

@@ -14,6 +14,7 @@
 #include <strahl/base/build_context.h>
 #include <strahl/base/hash.h>
 #include <strahl/base/options.h>
+#include <strahl/build/box_tree.h>
 #include <strahl/build/build_report.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/query/policies.h>
@@ -73,6 +74,8 @@ class WideBvh {
   /// Throws std::logic_error naming the first broken invariant. O(n).
   void validate(const PrimitiveSource& source) const;
   void hash_into(Hash64& hash) const;
+  /// With the stored boxes, in the scene's coordinates. O(nodes).
+  BoxTree box_tree() const;
 
  private:
   friend class WideBvhChecker;
