@@ -5,7 +5,9 @@
 // The boxes follow one rule (tests/support/published_boxes.h). Fitted were its thickness, 0.02, to
 // the counts of three scenes; the margin of cones, 0.0025, to those of rings and tree, which agree
 // within 1 %; and three margins to the numbers of `lattice`, which would be 4.5 % off without.
-// All others agree within 1/4 %, the empty cells within 1/1000.
+// All others agree within 1/4 %, the empty cells within 1/1000. STRAHL_CONFORMANCE=full prints the
+// table of the structure's README.
+#include <cstdio>
 #include <string>
 #include <tests/support/published.h>
 #include <tests/support/published_boxes.h>
@@ -58,6 +60,10 @@ TEST_P(GridCounts, AreThePublishedOnes) {
     const BuildReport report = build_grid(objects, c.cells[k]);
     const double references = test::published().at(key + "N_OIV"),
                  empty = test::published().at(key + "N_EV");
+    if (test::is_full_run())
+      std::printf("| %s | %s | %llu / %.0f | %llu / %.0f |\n", c.name, configurations[k],
+                  static_cast<unsigned long long>(report.references), references,
+                  static_cast<unsigned long long>(report.empty_leaves), empty);
     EXPECT_EQ(static_cast<double>(report.leaves), test::published().at(key + "N_V"));
     EXPECT_NEAR(static_cast<double>(report.references), references,
                 c.tolerance.references * references);
