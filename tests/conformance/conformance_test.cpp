@@ -80,6 +80,12 @@ TEST_P(Conformance, DefaultsAndSingleOptionsAnswerLikeBruteForce) {
     expect_conforms(*GetParam().scene, spec);
 }
 
+TEST_P(Conformance, OuterValuesOfNumbersAnswerLikeBruteForce) {
+  const std::vector<std::string> specs = outer_values(*GetParam().entry);
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    if (GetParam().takes(i)) expect_conforms(*GetParam().scene, specs[i]);
+}
+
 /// All combinations on tiny scenes; of structures with too many, every combination of three values.
 TEST_P(Conformance, OptionsTogetherAnswerLikeBruteForce) {
   if (!GetParam().scene->is_tiny) return;

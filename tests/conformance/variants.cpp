@@ -9,6 +9,11 @@
 namespace strahl::test {
 namespace {
 
+/// Up to so many numbers are choices, each of which meets all others.
+constexpr double kChoices = 4;
+/// Up to so many are tried alone; of more, but not of sizes, the last.
+constexpr double kCounted = 9, kLevels = 65;
+
 double number(const std::string& text) {
   double value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -17,6 +22,17 @@ double number(const std::string& text) {
 
 /// Between a and b, geometrically where both are positive.
 double between(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * b) : (a + b) / 2; }
+
+/// The values of a number that are too few to be sizes, all of them; none of other options.
+std::vector<std::string> counted_values(const OptionInfo& info, double most) {
+  if (info.type == "double" || info.min.empty()) return {};
+  const double first = number(info.min), last = number(info.max);
+  if (last - first >= most) return {};
+  std::vector<std::string> values;
+  for (double value = first; value <= last; ++value)
+    values.push_back(std::to_string(static_cast<long long>(value)));
+  return values;
+}
 
 std::string as_value(const OptionInfo& info, double value) {
   if (info.type != "double") return std::to_string(static_cast<long long>(std::floor(value)));
@@ -33,6 +49,7 @@ struct Axis {
 
 /// Numbers never go beyond 1000 times the default: a legal maximum may be meant for other scenes.
 std::vector<std::string> numbers_of(const OptionInfo& info) {
+  if (const auto all = counted_values(info, kChoices); !all.empty()) return all;
   const double lo = number(info.min), standard = number(info.default_value);
   const double hi = std::min(number(info.max), 1000 * std::max(standard, 1.0));
   return {as_value(info, lo), as_value(info, between(std::max(lo, standard / 64), standard)),
@@ -139,6 +156,18 @@ std::vector<std::string> one_at_a_time(const StructureEntry& entry) {
   for (std::size_t i = 0; i < axes.size(); ++i, row.assign(axes.size(), 0))
     for (row[i] = 1; row[i] < axes[i].values.size(); ++row[i])
       specs.push_back(spec_of(entry, axes, row));
+  return specs;
+}
+
+std::vector<std::string> outer_values(const StructureEntry& entry) {
+  std::vector<std::string> specs;
+  for (const OptionInfo& info : entry.options()) {
+    std::vector<std::string> values = counted_values(info, kCounted);
+    if (values.empty() && !counted_values(info, kLevels).empty()) values = {info.max};
+    for (const std::string& value : values)
+      if (value != info.default_value)
+        specs.push_back(canonical_spec(entry.name, info.name + "=" + value));
+  }
   return specs;
 }
 

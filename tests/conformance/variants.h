@@ -1,7 +1,7 @@
 // tests/conformance/variants.h - the finite matrix of SPECs of a structure, made from its options.
 //
-// Values of an option: all words of an enum or switch; of a number its default, its minimum and one
-// value on each side of the default.
+// Values of an option: all words of an enum or switch and all of up to four numbers; of more
+// numbers the default, the minimum and one value on each side of the default.
 #pragma once
 
 #include <string>
@@ -13,6 +13,9 @@ namespace strahl::test {
 
 /// Defaults and every option value alone.
 std::vector<std::string> one_at_a_time(const StructureEntry& entry);
+
+/// Numbers that those leave out, alone: every one of up to nine, the last of up to 65.
+std::vector<std::string> outer_values(const StructureEntry& entry);
 
 /// SPECs such that any values of any `strength` options occur together in one of them: a covering
 /// array, built greedily. strength is 1 to 4; structures with fewer options get their full product.

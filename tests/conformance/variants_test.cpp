@@ -1,5 +1,6 @@
 // The matrix of SPECs covers what it claims to.
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <tests/conformance/variants.h>
 
@@ -72,6 +73,66 @@ TEST(Variants, FullProductHoldsAllWordsWithTwoNumbers) {
   const std::vector<std::string> specs = full_product(kToy, 100);
   EXPECT_EQ(std::set<std::string>(specs.begin(), specs.end()).size(), 3u * 2 * 2 * 2);
   EXPECT_TRUE(full_product(kToy, 23).empty());
+}
+
+OptionInfo whole_number(const char* name, const char* first, const char* standard,
+                        const char* last) {
+  OptionInfo info;
+  info.name = name, info.type = "int";
+  info.min = first, info.default_value = standard, info.max = last;
+  return info;
+}
+
+TEST(Variants, FewNumbersAreAllTriedAndOfMoreTheLast) {
+  const auto options = [] {
+    return std::vector{whole_number("few", "0", "0", "3"), whole_number("more", "1", "3", "8"),
+                       whole_number("depth", "0", "0", "64"), whole_number("size", "1", "8", "99")};
+  };
+  const StructureEntry entry{"numbers", "", +options, nullptr};
+  EXPECT_EQ(outer_values(entry).size(), 3u + 7 + 1);
+  EXPECT_EQ(std::ranges::count(outer_values(entry), "numbers:depth=64"), 1);
+  EXPECT_EQ(std::ranges::count(one_at_a_time(entry), "numbers:few=2"), 1);
+}
+
+/// Values of an option that a matrix which names all has to name.
+std::set<std::string> values_to_try(const OptionInfo& info) {
+  std::set<std::string> values(info.values.begin(), info.values.end());
+  values.insert(info.default_value);
+  if (info.min.empty()) return values;
+  values.insert(info.min);
+  const double first = std::strtod(info.min.c_str(), nullptr),
+               last = std::strtod(info.max.c_str(), nullptr);
+  if (info.type == "double" || last - first > 64) return values;
+  values.insert(info.max);
+  for (double value = first; last - first < 9 && value < last; ++value)
+    values.insert(std::to_string(static_cast<int>(value)));
+  return values;
+}
+
+/// Values of an option in SPECs, its default where they do not name it.
+std::set<std::string> values_tried(const OptionInfo& info, const std::vector<std::string>& specs) {
+  std::set<std::string> values;
+  for (const std::string& spec : specs) {
+    std::string value = info.default_value;
+    for (const OptionValue& given : parse_spec(spec).options)
+      if (given.key == info.name) value = given.value;
+    values.insert(value);
+  }
+  return values;
+}
+
+/// Of the quick matrix and of what the full one adds to it for the scene files.
+TEST(Variants, EveryListedOptionValueIsInTheMatrix) {
+  for (const StructureEntry& entry : all_structures()) {
+    for (std::vector<std::string> specs : {covering(entry, 2), one_at_a_time(entry)}) {
+      for (const std::string& spec : outer_values(entry)) specs.push_back(spec);
+      for (const OptionInfo& info : entry.options()) {
+        const std::set<std::string> tried = values_tried(info, specs);
+        for (const std::string& value : values_to_try(info))
+          EXPECT_TRUE(tried.contains(value)) << entry.name << ':' << info.name << '=' << value;
+      }
+    }
+  }
 }
 
 TEST(Variants, AStructureWithoutOptionsHasOneSpec) {

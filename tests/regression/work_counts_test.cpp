@@ -4,7 +4,7 @@
 // They agree within 10 %, with 65 x 65 of the 513 x 513 primary rays. N_IT of octrees was evidently
 // published per ray that hits something: so it agrees on every scene and at every depth, per ray on
 // none. Without `gears`, whose published counts were of polygons of 144 corners, here of the
-// triangles of such, and in a box four times as high.
+// triangles of such, and whose rays entered more cells than a box as high as its grid holds.
 #include <string>
 #include <tests/support/published.h>
 

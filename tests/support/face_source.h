@@ -16,12 +16,13 @@ class FaceSource : public PrimitiveSource {
       const Geometry& geometry = scene.geometries()[part.geometry];
       for (std::uint32_t i = 0; i < geometry.size(); ++i)
         if (i == 0 || face_of(geometry, i) != face_of(geometry, i - 1))
-          first_.push_back(part.first_reference + i);
+          first_.push_back(part.first_reference + i), kinds_.push_back(geometry.kind);
     }
     first_.push_back(scene.size());
   }
 
   std::uint32_t size() const override { return static_cast<std::uint32_t>(first_.size() - 1); }
+  PrimitiveKind kind(std::uint32_t i) const { return kinds_[i]; }
   Aabb bounds(std::uint32_t i) const override {
     Aabb all;
     for (std::uint32_t r = first_[i]; r < first_[i + 1]; ++r) all.extend(scene_.bounds(r));
@@ -40,6 +41,7 @@ class FaceSource : public PrimitiveSource {
 
   const Scene& scene_;
   std::vector<std::uint32_t> first_;
+  std::vector<PrimitiveKind> kinds_;
 };
 
 }  // namespace strahl::test
