@@ -192,6 +192,37 @@ TEST_P(WideKernels, AnswerBundlesOfFloatRaysLikeBvh) {
   }
 }
 
+/// Two slanting sheets that only doubles tell apart: corners of the second are the next floats.
+std::shared_ptr<const Scene> close_sheets() {
+  constexpr std::uint32_t kSide = 24;
+  std::vector<Vec3d> vertices;
+  std::vector<std::uint32_t> indices;
+  for (int sheet = 0; sheet < 2; ++sheet) {
+    const auto base = static_cast<std::uint32_t>(vertices.size());
+    for (std::uint32_t i = 0; i <= kSide; ++i)
+      for (std::uint32_t j = 0; j <= kSide; ++j) {
+        const double x = i / double{kSide}, y = j / double{kSide};
+        const float z = static_cast<float>(0.3 * x + 0.2 * y + 0.5);
+        vertices.push_back({static_cast<float>(x), static_cast<float>(y),
+                            sheet == 0 ? z : std::nextafter(z, 2.0f)});
+        if (i == kSide || j == kSide) continue;
+        const std::uint32_t a = base + i * (kSide + 1) + j, b = a + kSide + 1;
+        indices.insert(indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+      }
+  }
+  SceneData data;
+  data.geometries.emplace_back().mesh = make_mesh(std::move(vertices), std::move(indices));
+  return std::make_shared<const Scene>(std::move(data));
+}
+
+TEST_P(WideKernels, TellCloseSheetsApartLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  const auto scene = close_sheets();
+  const RaySet set = adversarial_rays(*scene, kManyRays, 81);
+  for (const FloatRays& rays : {FloatRays::fans(set, *scene, 6), FloatRays::bundles(set, 82)})
+    expect_like_bvh(scene, rays, {"wide_bvh:width=8", "wide_bvh:width=16"});
+}
+
 /// What packets and flights share out between them.
 TEST_P(WideKernels, AnswerFansOfFloatRaysLikeBvh) {
   const ForcedIsa forced(GetParam().c_str());
