@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <tests/support/random_axes.h>
 #include <vector>
 
 #include <strahl/base/rng.h>
@@ -93,25 +94,13 @@ void print_volumes(const RealPart& part, const std::vector<Vec3d>& points,
   std::fflush(stdout);
 }
 
-/// A uniformly random rotation, from a random unit quaternion.
-ObbAxes random_axes(Rng& rng) {
-  double q[4], squared;
-  do {
-    squared = 0.0;
-    for (double& v : q) v = rng.uniform(-1, 1), squared += v * v;
-  } while (squared > 1.0 || squared < 1e-3);
-  const double norm = std::sqrt(squared);
-  const Affine turn = Affine::rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
-  return {turn.vector({1, 0, 0}), turn.vector({0, 1, 0}), turn.vector({0, 0, 1})};
-}
-
 double smallest_of_random(const EnclosedSet& set, std::size_t orientations) {
   const FitCloud cloud(set, true);
   Rng rng(2);
   double least = Aabb::kInf;
   for (std::size_t i = 0; i < orientations; ++i) {
     double volume = cloud.scale * cloud.scale * cloud.scale;
-    for (const Vec3d& axis : random_axes(rng)) {
+    for (const Vec3d& axis : test::random_axes(rng)) {
       const auto [lo, hi] = cloud.extent(axis);
       volume *= hi - lo;
     }

@@ -181,7 +181,7 @@ TEST_P(WideKernels, AnswerFloatRaysLikeBvh) {
   }
 }
 
-/// Rays that run close together begin below the root.
+/// Rays that run close together are traced as packets.
 TEST_P(WideKernels, AnswerBundlesOfFloatRaysLikeBvh) {
   const ForcedIsa forced(GetParam().c_str());
   for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {

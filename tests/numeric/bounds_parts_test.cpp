@@ -3,6 +3,7 @@
 #include <array>
 #include <numbers>
 #include <tests/support/parts.h>
+#include <tests/support/random_axes.h>
 
 #include <gtest/gtest.h>
 
@@ -106,18 +107,6 @@ TEST(BoundsOfParts, NestedDirectionsGiveNestedDops) {
       EXPECT_LE(d14.contains(p) || d18.contains(p), d6.contains(p));
     }
   }
-}
-
-/// A uniformly random rotation, from a random unit quaternion.
-ObbAxes random_axes(Rng& rng) {
-  double q[4], squared = 0.0;
-  do {
-    squared = 0.0;
-    for (double& v : q) v = rng.uniform(-1, 1), squared += v * v;
-  } while (squared > 1.0 || squared < 1e-3);
-  const double norm = std::sqrt(squared);
-  const Affine turn = Affine::rotation(q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm);
-  return {turn.vector({1, 0, 0}), turn.vector({0, 1, 0}), turn.vector({0, 0, 1})};
 }
 
 TEST(BoundsOfParts, OrientedBoxesAreNearMinimal) {

@@ -47,8 +47,8 @@ class Packet {
   using Leaf = LeafTest<W>;
   static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(L::kLanes);
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
-  /// What a child of a packet costs in visits of a node by a ray, and a triangle tested by a
-  /// register of rays in tests of a block by a ray, inverse.
+  /// A child costs a packet what it costs so many rays to visit a node, more where the rays are of
+  /// several octants; a ray's test of a block costs as many tests of a triangle by a register.
   static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = 5, kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
