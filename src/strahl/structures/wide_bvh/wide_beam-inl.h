@@ -36,13 +36,17 @@ class Beam {
   /// @param rays of a whole block: no lane has to be left out
   /// @param upper bounds of their hits
   Beam(const WideRays& rays, const float* upper, float reach)
-      : signs_(rays.signs[0]), has_one_octant_(have_one_octant(rays)) {
+      : signs_(rays.signs[0]),
+        has_one_octant_(are_equal(rays.signs)),
+        has_one_origin_(are_equal(rays.org[0]) && are_equal(rays.org[1]) &&
+                        are_equal(rays.org[2])) {
     for (int a = 0; a < 3; ++a)
       has_one_octant_ ? bound(rays, a, reach) : enclose(rays, upper, a, reach);
     enter_ = hn::Set(D(), least(rays.t_enter));
   }
 
   bool has_one_octant() const { return has_one_octant_; }
+  bool has_one_origin() const { return has_one_origin_; }
 
   /// Bits of the children that a ray may hit at or before `upper`, and where the first of them
   /// enters.
@@ -83,12 +87,15 @@ class Beam {
     return hn::LoadU(D(), plane_row(node, W, row));
   }
 
-  HWY_INLINE bool have_one_octant(const WideRays& rays) const {
+  /// In all bits.
+  template <class T>
+  HWY_INLINE static bool are_equal(const T* row) {
+    const hn::Rebind<T, D> d;
     const hn::RebindToUnsigned<D> du;
+    const auto first = hn::BitCast(du, hn::Set(d, row[0]));
     auto differ = hn::Zero(du);
-    const auto own = hn::Set(du, signs_);
     for (std::uint32_t i = 0; i < kWideBlock; i += hn::MaxLanes(du))
-      differ = hn::Or(differ, hn::Xor(own, hn::Load(du, rays.signs + i)));
+      differ = hn::Or(differ, hn::Xor(first, hn::BitCast(du, hn::Load(d, row + i))));
     return hn::AllTrue(du, hn::Eq(differ, hn::Zero(du)));
   }
 
@@ -142,7 +149,7 @@ class Beam {
   }
 
   std::uint32_t signs_;
-  bool has_one_octant_;
+  bool has_one_octant_, has_one_origin_;
   /// One octant: bounds of the constants. Several: the box, near its low, far its high planes.
   V least_rcp_[3], most_rcp_[3], middle_[3], near_[3], far_[3], enter_;
 };

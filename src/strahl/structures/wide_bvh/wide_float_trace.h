@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include <strahl/query/float_rays.h>
 #include <strahl/structures/wide_bvh/wide_trace.h>
 
 namespace strahl {
@@ -45,9 +44,8 @@ class WideFloatTrace {
   /// @return bits of those that need doubles or are invalid: they are given as misses
   std::uint64_t run(std::size_t first, std::uint32_t count, Answer* answers) {
     first_ = first, answers_ = answers;
-    take(count);
     const auto reach = static_cast<float>(tree_.frame.reach);
-    const std::uint64_t suited = kernel_.prepare(rays_, count, reach);
+    const std::uint64_t suited = kernel_.prepare(rays_, given_, first, count, reach);
     known_.begin(rays_.upper, rays_.lower);
     std::fill_n(answers, count, Answer{});
     WideJob job{tree_, rays_, known_, this, &resolve, {}, room_.get()};
@@ -62,19 +60,6 @@ class WideFloatTrace {
   static constexpr WideMode kMode = kIsAny ? WideMode::any : WideMode::closest;
   static constexpr bool kIsCounted = !std::is_same_v<C, NoCounters>;
   static constexpr std::size_t kNone = ~std::size_t{0};
-
-  /// Copies the rays, and zeros into the lanes of vectors behind them.
-  void take(std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const Vec3f org = given_.org(first_ + i), dir = given_.dir(first_ + i);
-      for (int a = 0; a < 3; ++a) rays_.org[a][i] = org[a], rays_.given[a][i] = dir[a];
-      rays_.t_enter[i] = given_.t_min(first_ + i), rays_.upper[i] = given_.t_max(first_ + i);
-    }
-    for (std::uint32_t i = count; i % kWideMaxLanes != 0; ++i) {
-      for (int a = 0; a < 3; ++a) rays_.org[a][i] = rays_.given[a][i] = 0.0f;
-      rays_.t_enter[i] = rays_.upper[i] = 0.0f;
-    }
-  }
 
   void finish(std::uint32_t count) {
     if constexpr (kIsAny) {

@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 
+#include <strahl/query/float_rays.h>
 #include <strahl/structures/wide_bvh/wide_ray.h>
 #include <strahl/structures/wide_bvh/wide_tree.h>
 
@@ -74,7 +75,8 @@ struct WideKernel {
   /// Per mode, whether work is counted, and width 8 or 16.
   WideTraverse traverse[kWideModes][2][2] = {};
   /// Makes float rays ready: wide_prepare-inl.h.
-  std::uint64_t (*prepare)(WideRays& rays, std::uint32_t count, float reach) = nullptr;
+  std::uint64_t (*prepare)(WideRays& rays, const FloatRays& given, std::size_t first,
+                           std::uint32_t count, float reach) = nullptr;
   /// Canonical t of candidates: wide_settle-inl.h.
   WideSettled (*settle)(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
                         double* t) = nullptr;

@@ -72,6 +72,35 @@ class LeafTest {
             corner(row + 6 * lanes, lanes), upper, r);
   }
 
+  /// The triangles of a block as all rays from this ray's origin see them: with the origin given,
+  /// all products but det, U and V are, and those are scalar products with the direction. A column
+  /// per triangle. The monomials and their roundings are those of measure().
+  struct Pencil {
+    alignas(64) float det[3][W], u[3][W], v[3][W], t[W], error[W], t_error[W];
+  };
+  HWY_INLINE void project(const std::byte* leaf, std::uint32_t lanes, Pencil& pencil) const {
+    for (int part = 0; part < L::kParts; ++part) {
+      const int at = part * L::kLanes;
+      const float* row = corner_row(leaf, lanes, 0) + at;
+      const V3 a = load(row, lanes), s = minus(org_, a);
+      const V3 e1 = minus(load(row + 3 * lanes, lanes), a);
+      const V3 e2 = minus(load(row + 6 * lanes, lanes), a), q = cross(s, e1);
+      store(cross(e2, e1), pencil.det, at), store(cross(e2, s), pencil.u, at);
+      store(q, pencil.v, at);
+      Values r;
+      bound(leaf, s, r);
+      hn::Store(dot(e2, q), D(), pencil.t + at);
+      hn::Store(r.error, D(), pencil.error + at), hn::Store(r.t_error, D(), pencil.t_error + at);
+    }
+  }
+  /// Rays of the pencil that may hit the triangle of one lane at or before their `upper`.
+  HWY_INLINE void test_projected(const Pencil& pencil, std::uint32_t lane, V upper,
+                                 Values& r) const {
+    r.error = hn::Set(D(), pencil.error[lane]), r.t_error = hn::Set(D(), pencil.t_error[lane]);
+    judge(along(pencil.det, lane), along(pencil.u, lane), along(pencil.v, lane),
+          hn::Set(D(), pencil.t[lane]), upper, r);
+  }
+
   /// Lanes certainly behind `upper`.
   HWY_INLINE static auto is_behind(const Values& r, V upper) {
     return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(upper, r.det));
@@ -114,24 +143,43 @@ class LeafTest {
                           Values& r) const {
     const V3 s = minus(org_, a), e1 = minus(b, a), e2 = minus(c, a);
     const V3 h = cross(dir_, e2), q = cross(s, e1);
-    const V det = dot(e1, h);
-    r.det_sign = hn::And(det, hn::SignBit(D()));
-    r.det = hn::Abs(det);
-    r.u = hn::Xor(dot(s, h), r.det_sign);
-    r.v = hn::Xor(dot(dir_, q), r.det_sign);
-    r.t = hn::Xor(dot(e2, q), r.det_sign);
-    r.w = hn::Sub(hn::Sub(r.det, r.u), r.v);
+    bound(leaf, s, r);
+    judge(dot(e1, h), dot(s, h), dot(dir_, q), dot(e2, q), upper, r);
+  }
+
+  /// The errors of the values of triangles whose corner a is at -s from the origin.
+  HWY_INLINE void bound(const std::byte* leaf, const V3& s, Values& r) const {
     const auto* bound = reinterpret_cast<const float*>(leaf);
     const V per_distance = hn::Set(D(), bound[0]);
     const V constant = hn::MulAdd(slack_, per_distance, hn::Set(D(), bound[1]));
     const V distance = hn::Max(hn::Max(hn::Abs(s.x), hn::Abs(s.y)), hn::Abs(s.z));
     r.error = hn::MulAdd(distance, per_distance, constant);
     r.t_error = hn::Mul(r.error, hn::Set(D(), bound[2]));
+  }
+
+  /// What can be said by the products; the errors are in `r`.
+  HWY_INLINE void judge(V det, V u, V v, V t, V upper, Values& r) const {
+    r.det_sign = hn::And(det, hn::SignBit(D()));
+    r.det = hn::Abs(det);
+    r.u = hn::Xor(u, r.det_sign);
+    r.v = hn::Xor(v, r.det_sign);
+    r.t = hn::Xor(t, r.det_sign);
+    r.w = hn::Sub(hn::Sub(r.det, r.u), r.v);
     const auto outside =
         hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)), hn::Lt(r.w, r.error));
     const auto before = hn::Lt(hn::Sub(r.t, r.t_error), hn::Mul(enter_, r.det));
     const auto missed = hn::Or(hn::Or(outside, before), is_behind(r, upper));
     r.possible = ~bits_of(D(), missed);
+  }
+
+  /// Scalar product of the direction and a column of the pencil.
+  HWY_INLINE V along(const float (&rows)[3][W], std::uint32_t lane) const {
+    return dot(dir_, {hn::Set(D(), rows[0][lane]), hn::Set(D(), rows[1][lane]),
+                      hn::Set(D(), rows[2][lane])});
+  }
+  HWY_INLINE static void store(const V3& v, float (&rows)[3][W], int at) {
+    hn::Store(v.x, D(), rows[0] + at), hn::Store(v.y, D(), rows[1] + at);
+    hn::Store(v.z, D(), rows[2] + at);
   }
 
   HWY_INLINE static V3 broadcast(const WideRays::Row* v, std::uint32_t i) {

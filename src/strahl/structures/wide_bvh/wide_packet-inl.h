@@ -67,7 +67,7 @@ class Packet {
     if (!is_leaf(child.id))
       divide(child.id, rays);
     else if (pays(child.id, rays))
-      test_block(child.id, rays);
+      beam_.has_one_origin() ? test_block<true>(child.id, rays) : test_block<false>(child.id, rays);
     else
       hand_over(child.id, rays);
   }
@@ -131,24 +131,33 @@ class Packet {
     return hn::Set(D(), plane_row(node, W, row)[slot]);
   }
 
+  template <bool kIsPencil>
   void test_block(WideId id, std::uint64_t rays) {
+    typename Leaf::Pencil pencil;
+    if constexpr (kIsPencil) Leaf(job_.rays, 0).project(job_.tree.at(id), lanes_of(id), pencil);
     bool is_shorter = false;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       auto group = static_cast<std::uint32_t>(rays >> first & kGroup);
-      if (group != 0) is_shorter |= test_group(id, first, group);
+      if (group != 0) is_shorter |= test_group<kIsPencil>(id, first, group, pencil);
     }
     if (is_shorter) find_farthest();
   }
 
   /// Whether any ray of the group has become shorter.
-  HWY_INLINE bool test_group(WideId id, std::uint32_t first, std::uint32_t group) {
+  template <bool kIsPencil>
+  HWY_INLINE bool test_group(WideId id, std::uint32_t first, std::uint32_t group,
+                             const typename Leaf::Pencil& pencil) {
     const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
     const std::byte* block = job_.tree.at(id);
     const std::uint32_t lanes = lanes_of(id);
     bool is_shorter = false;
     for (std::uint32_t lane = 0; lane < lanes && group != 0; ++lane) {
       typename Leaf::Values values;
-      test.test_one(block, lanes, lane, hn::Load(D(), answers_.upper + first), values);
+      const auto upper = hn::Load(D(), answers_.upper + first);
+      if constexpr (kIsPencil)
+        test.test_projected(pencil, lane, upper, values);
+      else
+        test.test_one(block, lanes, lane, upper, values);
       values.possible &= group;
       if (values.possible == 0) continue;
       group &= ~take(id, lane, first, test, values);

@@ -17,6 +17,7 @@
 
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
 #include <strahl/structures/wide_bvh/wide_ray.h>
+#include <strahl/structures/wide_bvh/wide_take-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
@@ -116,9 +117,11 @@ class Preparation {
   hn::Vec<hn::RebindToUnsigned<D>> signs_ = hn::Zero(hn::RebindToUnsigned<D>());
 };
 
-/// Rays 0 .. count - 1, of which org, the given dir, t_min in t_enter and t_max in upper are given.
+/// Makes rays first .. first + count - 1 of a batch the block's rays.
 /// @return bits of those that suit; the others are to be set by doubles, invalid ones among them
-inline std::uint64_t prepare(WideRays& rays, std::uint32_t count, float reach) {
+inline std::uint64_t prepare(WideRays& rays, const FloatRays& given, std::size_t first,
+                             std::uint32_t count, float reach) {
+  take(rays, given, first, count);
   constexpr auto kLanes = static_cast<std::uint32_t>(WideLanes<16>::kLanes);
   std::uint64_t suited = 0;
   for (std::uint32_t i = 0; i < count; i += kLanes)
