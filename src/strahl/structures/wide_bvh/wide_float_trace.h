@@ -46,6 +46,7 @@ class WideFloatTrace {
     first_ = first, answers_ = answers;
     const auto reach = static_cast<float>(tree_.frame.reach);
     const std::uint64_t suited = kernel_.prepare(rays_, given_, first, count, reach);
+    prefetch(first + count);
     known_.begin(rays_.upper, rays_.lower);
     std::fill_n(answers, count, Answer{});
     WideJob job{tree_, rays_, known_, this, &resolve, {}, room_.get()};
@@ -60,6 +61,18 @@ class WideFloatTrace {
   static constexpr WideMode kMode = kIsAny ? WideMode::any : WideMode::closest;
   static constexpr bool kIsCounted = !std::is_same_v<C, NoCounters>;
   static constexpr std::size_t kNone = ~std::size_t{0};
+
+  /// What the block that begins there reads first and writes, while the last one is traced. Of
+  /// records of a ray all lines are asked for.
+  void prefetch(std::size_t next) const {
+    const std::byte* org = given_.orgs().data + next * given_.orgs().stride;
+    const std::size_t bytes = kWideBlock * given_.orgs().stride;
+    const std::size_t step = std::max<std::size_t>(64, given_.orgs().stride);
+    for (std::size_t i = 0; i < bytes; i += step) __builtin_prefetch(org + i);
+    const auto* written = reinterpret_cast<const std::byte*>(answers_ + (next - first_));
+    for (std::size_t i = 0; i < sizeof(Answer) * kWideBlock; i += 64)
+      __builtin_prefetch(written + i, 1);
+  }
 
   void finish(std::uint32_t count) {
     if constexpr (kIsAny) {

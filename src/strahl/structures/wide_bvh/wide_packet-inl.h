@@ -18,6 +18,7 @@
 
 #include <strahl/structures/wide_bvh/wide_beam-inl.h>
 #include <strahl/structures/wide_bvh/wide_flight-inl.h>
+#include <strahl/structures/wide_bvh/wide_pencil-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
@@ -27,12 +28,13 @@ namespace HWY_NAMESPACE {
 template <int W, WideMode M>
 class Packet {
  public:
-  Packet(WideJob& job, const Beam<W>& beam)
+  explicit Packet(WideJob& job)
       : job_(job),
         answers_(job.answers),
-        beam_(beam),
-        backward_((beam.signs() * (W / 8)) ^ (W - 1)),
+        beam_(job.rays, job.answers.upper, static_cast<float>(job.tree.frame.reach)),
+        backward_((beam_.signs() * (W / 8)) ^ (W - 1)),
         flight_(job) {
+    if (beam_.has_one_origin()) cull_ = PencilCull<W>(job.rays);
     find_farthest();
   }
 
@@ -134,11 +136,15 @@ class Packet {
   template <bool kIsPencil>
   void test_block(WideId id, std::uint64_t rays) {
     typename Leaf::Pencil pencil;
-    if constexpr (kIsPencil) Leaf(job_.rays, 0).project(job_.tree.at(id), lanes_of(id), pencil);
+    std::uint32_t triangles = (2u << (lanes_of(id) - 1)) - 1;
+    if constexpr (kIsPencil) {
+      Leaf(job_.rays, 0).project(job_.tree.at(id), lanes_of(id), pencil);
+      triangles &= cull_.lanes(pencil);
+    }
     bool is_shorter = false;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       auto group = static_cast<std::uint32_t>(rays >> first & kGroup);
-      if (group != 0) is_shorter |= test_group<kIsPencil>(id, first, group, pencil);
+      if (group != 0) is_shorter |= test_group<kIsPencil>(id, first, group, triangles, pencil);
     }
     if (is_shorter) find_farthest();
   }
@@ -146,12 +152,13 @@ class Packet {
   /// Whether any ray of the group has become shorter.
   template <bool kIsPencil>
   HWY_INLINE bool test_group(WideId id, std::uint32_t first, std::uint32_t group,
-                             const typename Leaf::Pencil& pencil) {
+                             std::uint32_t triangles, const typename Leaf::Pencil& pencil) {
     const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
     const std::byte* block = job_.tree.at(id);
     const std::uint32_t lanes = lanes_of(id);
     bool is_shorter = false;
-    for (std::uint32_t lane = 0; lane < lanes && group != 0; ++lane) {
+    for (; triangles != 0 && group != 0; triangles &= triangles - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(triangles));
       typename Leaf::Values values;
       const auto upper = hn::Load(D(), answers_.upper + first);
       if constexpr (kIsPencil)
@@ -225,6 +232,7 @@ class Packet {
   WideJob& job_;
   WideAnswers& answers_;
   Beam<W> beam_;
+  PencilCull<W> cull_;      ///< of rays from one origin
   std::uint32_t backward_;  ///< slot XOR it: farthest first
   Flight<W, M> flight_;
   std::uint64_t live_ = ~std::uint64_t{0};
@@ -242,8 +250,7 @@ void fly(WideJob& job, std::uint64_t rays) {
     Flight<W, M>(job).run(rays, job.tree.root);
     return;
   }
-  const auto reach = static_cast<float>(job.tree.frame.reach);
-  Packet<W, M>(job, Beam<W>(job.rays, job.answers.upper, reach)).run();
+  Packet<W, M>(job).run();
 }
 
 }  // namespace HWY_NAMESPACE
