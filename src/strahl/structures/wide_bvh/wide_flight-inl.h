@@ -92,7 +92,8 @@ class Flight {
       typename NodeTest<W>::Hits hits;
       NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper[ray]), hits);
       std::size_t top = top_[ray];
-      const WideId next = stacks.exchange(child_row(at, W), hits, rays.signs[ray] * (W / 8), top);
+      const WideId next = stacks.template exchange<M != WideMode::any>(
+          child_row(at, W), hits, rays.signs[ray] * (W / 8), top);
       top_[ray] = top;
       go_to(ray, next, base, n);
     }

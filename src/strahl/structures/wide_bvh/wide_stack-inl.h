@@ -43,11 +43,14 @@ class WideStack {
   HWY_INLINE WideStack from(std::size_t i) const { return WideStack(enter_ + i, ids_ + i); }
   HWY_INLINE void put(std::size_t i, float enter, WideId id) { enter_[i] = enter, ids_[i] = id; }
 
+  /// kEnters of what follows: whether where children are entered is kept, for drop_behind().
+  ///
   /// Pushes all children hit but the nearest and returns it; where none is hit, pops. Without a
   /// branch, for nodes of one register.
+  template <bool kEnters>
   HWY_INLINE WideId exchange(const WideId* children, const typename NodeTest<W>::Hits& hits,
                              std::uint32_t order, std::size_t& count) {
-    const std::uint32_t slot = store_farthest_first(children, hits, order, count);
+    const std::uint32_t slot = store_farthest_first<kEnters>(children, hits, order, count);
     // Of ids_[count - 1] and children[slot], without letting the compiler see a choice.
     const std::uintptr_t waits = reinterpret_cast<std::uintptr_t>(ids_ + count - 1);
     const std::uintptr_t child = reinterpret_cast<std::uintptr_t>(children + slot);
@@ -57,15 +60,18 @@ class WideStack {
     return id;
   }
 
-  /// Pushes all children hit but the nearest, which is returned. At least one must be hit.
+  /// Pushes all children hit but the nearest, which is returned. At least one must be hit. A lone
+  /// child is the commonest case and has nothing to be put into order.
   /// @param order the ray's signs, for 16 slots times 2
+  template <bool kEnters>
   HWY_INLINE WideId push(const WideId* children, const typename NodeTest<W>::Hits& hits,
                          std::uint32_t order, std::size_t& count) {
-    // A ray on its own waits for what 16 lanes take to be compressed.
-    if constexpr (kSortsAtOnce<W> && W == 8)
-      return push_at_once(children, hits, order, count);
-    else
+    if constexpr (kSortsAtOnce<W>) {
+      if ((hits.bits & (hits.bits - 1)) == 0) return children[__builtin_ctz(hits.bits)];
+      return push_at_once<kEnters>(children, hits, order, count);
+    } else {
       return push_one_by_one(children, hits, order, count);
+    }
   }
 
   /// Drops what is entered behind `upper`. Returns how many are left of `count`.
@@ -107,6 +113,7 @@ class WideStack {
 
   /// Writes the children hit behind what waits, whatever their number.
   /// @return the slot of the nearest, which was written last; any slot where none is hit
+  template <bool kEnters>
   HWY_INLINE std::uint32_t store_farthest_first(const WideId* children,
                                                 const typename NodeTest<W>::Hits& hits,
                                                 std::uint32_t order, std::size_t count) {
@@ -116,21 +123,23 @@ class WideStack {
       const std::uint32_t backward = order ^ 15u, bits = visiting_order<W>(hits.bits, backward);
       const auto index = hn::Xor(hn::Iota(DU(), 0), hn::Set(DU(), backward));
       const auto mask = mask_of(D(), bits);
-      hn::StoreU(hn::Compress(permuted(hits.enter[0], index), mask), D(), enter_ + count);
+      if constexpr (kEnters)
+        hn::StoreU(hn::Compress(permuted(hits.enter[0], index), mask), D(), enter_ + count);
       hn::StoreU(hn::Compress(permuted(ids, index), mask_of(DU(), bits)), DU(), ids_ + count);
       return (31u - static_cast<std::uint32_t>(__builtin_clz(bits | 1u))) ^ backward;
     }
 #endif
     const std::uint64_t& slots = wide_slots(hits.bits, order);
     const auto index = lanes_from(slots);
-    hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
+    if constexpr (kEnters) hn::StoreU(permuted(hits.enter[0], index), D(), enter_ + count);
     hn::StoreU(permuted(ids, index), DU(), ids_ + count);
     return static_cast<std::uint32_t>(slots >> 56);
   }
 
+  template <bool kEnters>
   HWY_INLINE WideId push_at_once(const WideId* children, const typename NodeTest<W>::Hits& hits,
                                  std::uint32_t order, std::size_t& count) {
-    const std::uint32_t slot = store_farthest_first(children, hits, order, count);
+    const std::uint32_t slot = store_farthest_first<kEnters>(children, hits, order, count);
     count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
     return children[slot];
   }

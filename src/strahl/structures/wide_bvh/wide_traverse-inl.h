@@ -119,7 +119,7 @@ inline constexpr WideId kNoNode = 0xffffffffu;
 /// Walks down from `id`, and from the stack where no child is hit, to the next block. kNoNode when
 /// there is none. The ray's constants are taken anew each time: kept across the tests of blocks,
 /// which need all registers themselves, they would be on the stack.
-template <int W, bool kCounts>
+template <int W, WideMode M, bool kCounts>
 HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<W>& stack,
                           std::size_t& waiting_out) {
   const NodeTest<W> node_test(job.rays, ray);
@@ -133,7 +133,7 @@ HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<
     typename NodeTest<W>::Hits hits;
     node_test.test(at, upper, hits);
     if (hits.bits != 0) {
-      id = stack.push(child_row(at, W), hits, order, waiting);
+      id = stack.template push<M != WideMode::any>(child_row(at, W), hits, order, waiting);
       continue;
     }
     if (waiting == 0) return kNoNode;
@@ -151,7 +151,7 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
   const float& bound = job.answers.upper[ray];
   std::size_t waiting = 0;
   WideId id = job.tree.root;
-  while ((id = descend<W, kCounts>(job, ray, id, stack, waiting)) != kNoNode) {
+  while ((id = descend<W, M, kCounts>(job, ray, id, stack, waiting)) != kNoNode) {
     const std::byte* at = base + std::size_t{unit_of(id)} * kWideUnit;
     const std::uint32_t lanes = lanes_of(id);
     if (kCounts) ++job.counts.leaves, job.counts.lanes += lanes;
