@@ -52,7 +52,8 @@ class Bvh {
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
     if (binary_boxes_ != nullptr)
-      return walk(BvhView<AabbVolume, true, 2>(*binary_boxes_, ray), prims, ray, query, counters);
+      return walk(BvhView<AabbVolume, BvhOrder::entry, 2>(*binary_boxes_, ray), prims, ray, query,
+                  counters);
     if (tree_ == nullptr) return;
     LeafQueryOf<Prims, Q, C> leaves(prims, ray, query, counters);
     tree_->trace(traversal_for<Q>(), ray, leaves, counters);
