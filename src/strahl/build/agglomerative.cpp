@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <stdexcept>
 #include <utility>
 
 #include <strahl/build/agglomerative.h>
@@ -171,8 +172,11 @@ class Agglomeration {
       index.for_slots([&](std::uint32_t slot, std::uint32_t cluster) { slot_[cluster] = slot; });
       while (left_ > 1 && left_ > index.size() / 2) {
         context_.check(1.0 - static_cast<double>(left_) / all, "building");
+        const std::size_t before = left_;
         search(index);
         join_mutual(index);
+        // Of all pairs the nearest are each other's nearest.
+        if (left_ == before) throw std::logic_error("agglomerative: a nearest cluster is none");
       }
       clusters = index.rest();
     }
