@@ -120,7 +120,18 @@ void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
 std::optional<BoxTree> Bvh::box_tree() const {
   std::optional<Hierarchy> nodes = tree_ ? tree_->box_hierarchy() : Hierarchy{};
   if (!nodes) return std::nullopt;
-  return BoxTree{*std::move(nodes), {1.0, 0.0, options_.intersect_cost / options_.traverse_cost}};
+  return BoxTree{*std::move(nodes), visit_cost()};
+}
+
+std::shared_ptr<const SideTree> Bvh::side_tree() const {
+  SideTree tree;
+  if (tree_) tree = tree_->side_tree();
+  tree.cost = visit_cost();
+  return std::make_shared<const SideTree>(std::move(tree));
+}
+
+VisitCost Bvh::visit_cost() const {
+  return {1.0, 0.0, options_.intersect_cost / options_.traverse_cost};
 }
 
 void Bvh::validate(const PrimitiveSource& source) const {

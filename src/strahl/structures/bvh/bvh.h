@@ -69,6 +69,8 @@ class Bvh {
   }
   /// Nothing where the volumes are not boxes. O(nodes).
   std::optional<BoxTree> box_tree() const;
+  /// Whatever the volumes are. O(nodes).
+  std::shared_ptr<const SideTree> side_tree() const;
   const VolumeTree* tree() const { return tree_.get(); }
 
  private:
@@ -81,6 +83,7 @@ class Bvh {
   }
 
   explicit Bvh(const Options& options) : options_(options), traversal_(options.traversal) {}
+  VisitCost visit_cost() const;
   void take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildContext& context);
 
   friend class BvhBreaker;  ///< plants faults for the tests

@@ -57,6 +57,7 @@ class BvhTree final : public VolumeTree {
   const BuildReport& report() const override { return report_; }
   Hierarchy hierarchy() const override;
   std::optional<Hierarchy> box_hierarchy() const override;
+  SideTree side_tree() const override;
   void validate(const PrimitiveSource& source, bool refers_once) const override;
   void hash_into(Hash64& hash) const override;
 

@@ -121,6 +121,14 @@ std::optional<Hierarchy> BvhTree<V>::box_hierarchy() const {
 }
 
 template <class V>
+SideTree BvhTree<V>::side_tree() const {
+  SideTree out;
+  for (const Node& node : nodes_) out.add_volume(node.volume);
+  out.nodes = hierarchy();
+  return out;
+}
+
+template <class V>
 void BvhTree<V>::validate(const PrimitiveSource& source, bool refers_once) const {
   BvhChecker<V>(*this, source, refers_once).run();
 }
