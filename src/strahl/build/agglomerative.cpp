@@ -176,7 +176,8 @@ class Agglomeration {
         search(index);
         join_mutual(index);
         // Of all pairs the nearest are each other's nearest.
-        if (left_ == before) throw std::logic_error("agglomerative: a nearest cluster is none");
+        if (left_ == before)
+          throw std::logic_error("agglomerative: no clusters are each other's nearest");
       }
       clusters = index.rest();
     }
@@ -198,6 +199,7 @@ class Agglomeration {
   void join_mutual(ClusterIndex& index) {
     for (const std::uint32_t i : searching_) {
       const std::uint32_t target = nearest_[i].cluster;
+      if (target == kNone) throw std::logic_error("agglomerative: a cluster has no nearest");
       next_follower_[i] = followers_[target], followers_[target] = i;
     }
     std::vector<std::uint32_t> next;
