@@ -3,8 +3,8 @@
 // Triangles: convex polygons. A plane cuts them exactly, up to rounding. At a curved side
 //   (bounds/side.h) a polygon is halved until it reaches no more than 1/16 of the radius from its
 //   middle, and then cut along a straight line. Chords lie inside of arcs: of the section of a ball
-//   or a tube less than 0.3 % is missed, 0.1 % on average, of sections smaller than a polygon up to
-//   all; and as much of a hole is counted.
+//   or a tube less is missed than 0.3 % of a circle of its radius, and as much of a hole is
+//   counted.
 // Spheres and cones: patches as in geometry/surface_piece.h, halved where the boundary of a volume
 //   crosses them; those small against the volume become two triangles that together have the weight
 //   of the patch's area, and are cut as such from then on.
