@@ -8,8 +8,9 @@
 // Spheres and cones: patches as in geometry/surface_piece.h, halved where the boundary of a volume
 //   crosses them; those small against the volume become two triangles that together have the weight
 //   of the patch's area, and are cut as such from then on.
-// Accuracy: within 1 % of what a volume holds of the surface of much larger things; that of sums
-//   over a scene is better, as parts add up (cut_piece_test.cpp).
+// Accuracy: within 1 % of what a volume holds of the surface of much larger things; overlaps of
+// whole
+//   trees agree with random points within their noise (cut_piece_test, volume_overlap_test).
 // Thread safety: values.
 #pragma once
 
