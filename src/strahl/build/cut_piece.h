@@ -9,8 +9,7 @@
 //   crosses them; those small against the volume become two triangles that together have the weight
 //   of the patch's area, and are cut as such from then on.
 // Accuracy: within 1 % of what a volume holds of the surface of much larger things; overlaps of
-// whole
-//   trees agree with random points within their noise (cut_piece_test, volume_overlap_test).
+//   whole trees agree with random points within their noise (cut_piece_test, volume_overlap_test).
 // Thread safety: values.
 #pragma once
 
