@@ -4,7 +4,7 @@
 // First table, the lecture's T = n B + m I per closest hit: n volume tests per ray, m/n the share
 // of them that lets the ray through, B nanoseconds per test (bounds/README.md), `rest` the
 // primitive tests at I each; T is the model's sum, ns/ray what was measured. Second table: the
-// three orders. Rays run from a sphere around the scene to points in its box. One thread; variants
+// four orders. Rays run from a sphere around the scene to points in its box. One thread; variants
 // take turns, times are medians of seven in processor time. Exit status 1 when answers differ.
 #include <algorithm>
 #include <cmath>
@@ -134,10 +134,10 @@ int run(const std::string& name, std::size_t count) {
   for (std::size_t i = 0; i < kVolumeKinds; ++i) kinds[i].B = VolumeCosts{}.test[i];
   if (!measure(kinds, rays)) return 1;
   print_kinds(kinds, rays.size());
-  std::vector<Variant> orders =
-      build_variants(scene, {"bvh:traversal=dfs", "bvh:traversal=ordered", "bvh:traversal=heap",
-                             "bvh:bv=obb,traversal=dfs", "bvh:bv=obb,traversal=ordered",
-                             "bvh:bv=obb,traversal=heap"});
+  std::vector<Variant> orders = build_variants(
+      scene, {"bvh:traversal=dfs", "bvh:traversal=direction", "bvh:traversal=ordered",
+              "bvh:traversal=heap", "bvh:bv=obb,traversal=dfs", "bvh:bv=obb,traversal=direction",
+              "bvh:bv=obb,traversal=ordered", "bvh:bv=obb,traversal=heap"});
   if (!measure(orders, rays)) return 1;
   print_orders(orders, rays.size());
   return 0;

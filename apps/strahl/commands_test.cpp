@@ -71,7 +71,7 @@ TEST_F(Commands, InfoCountsTheSceneAndChecksTheStructure) {
       json["structure"]["tree_hash"]);
 }
 
-TEST_F(Commands, InfoPrintsTheOverlapOfTreesOfBoxesWhenAsked) {
+TEST_F(Commands, InfoPrintsTheOverlapOfTreesOfVolumesWhenAsked) {
   const auto structure = [&](const std::string& rest) {
     return run("info gen:balls:2 --json --structure " + rest).json()["structure"];
   };
@@ -79,6 +79,8 @@ TEST_F(Commands, InfoPrintsTheOverlapOfTreesOfBoxesWhenAsked) {
   const nlohmann::json two = structure("bvh --epo --threads 2")["epo"];
   EXPECT_GT(two, 0.0);
   EXPECT_EQ(structure("bvh --epo --threads 1")["epo"], two);
+  for (const std::string spec : {"bvh:bv=sphere", "bvh:bv=auto", "two_level"})
+    EXPECT_GT(structure(spec + " --epo")["epo"], 0.0) << spec;
   EXPECT_TRUE(structure("grid --epo")["epo"].is_null());
   EXPECT_NE(run("info gen:balls:2 --structure grid --epo").out.find("structure.epo "),
             std::string::npos);

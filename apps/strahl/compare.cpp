@@ -214,7 +214,7 @@ void add_compare_command(CLI::App& app, Runner& run) {
   command->add_option("--maps", options->maps, "Size of heat maps, or none (default: 256x192)")
       ->type_name("WxH");
   command->add_flag("--epo", c.with_overlap,
-                    "Also the end-point overlap of trees of boxes, see 'strahl info' (slow)");
+                    "Also the end-point overlap of trees of volumes, see 'strahl info' (slow)");
   command->add_option("--seed", c.seed, "Of the random numbers in rays");
   command->add_option("-o,--output", options->output, "Folder of results")
       ->required()

@@ -85,7 +85,7 @@ TEST_F(CompareCommand, OneStructureWithoutMapsIsEnough) {
   EXPECT_EQ(finished.json()["summary"]["workloads"][0]["structures"][0]["mean_rank"], 1.0);
 }
 
-TEST_F(CompareCommand, TellsTheOverlapOfTreesOfBoxesWhenAsked) {
+TEST_F(CompareCommand, TellsTheOverlapOfTreesOfVolumesWhenAsked) {
   const std::string command = "compare gen:balls:1" + std::string(kSmall);
   const auto plain = run(command).json();
   EXPECT_TRUE(plain["scenes"][0]["structures"][0]["build"]["epo"].is_null());

@@ -94,9 +94,10 @@ void add_info_command(CLI::App& app, Runner& run) {
       app.add_subcommand("info", "Statistics of a scene, and of a structure built over it");
   command->footer(
       "With --structure the structure is built, its invariants are checked (exit code 1 if one is\n"
-      "broken) and its size is reported. --epo adds the end-point overlap of a tree of boxes:\n"
-      "what rays cost in nodes that hold their end but not the primitive they end on, in node\n"
-      "steps. It takes longer than the build. '-' for other structures.\n"
+      "broken) and its size is reported. --epo adds the end-point overlap of a tree of bounding\n"
+      "volumes or of two levels of such: what rays cost in nodes that hold their end but not the\n"
+      "primitive they end on, in node steps. It takes longer than the build. '-' for other\n"
+      "structures.\n"
       "Examples:\n"
       "  strahl info bunny.ply\n"
       "  strahl info gen:gears:4 --structure kd_tree --json\n"

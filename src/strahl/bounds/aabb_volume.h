@@ -50,6 +50,7 @@ class AabbVolume {
   bool contains(const Vec3d& p) const { return box().contains(p); }
   std::size_t bytes() const { return sizeof(*this); }
   void add_corners_to(EnclosedSet& set) const { set.add(box()); }
+  void add_sides_to(SideList& sides) const { sides.add(box()); }
   void add_planes_to(Polytope&) const {}  // a polytope is made within box()
 
  private:

@@ -16,6 +16,7 @@
 //   v.contains(p)         in double without margin; true of all points that were enclosed
 //   v.bytes()             of the object with all it owns
 //   v.add_corners_to(set) points and balls whose hull encloses the volume
+//   v.add_sides_to(list)  its boundary, for measures (side.h)
 // Storage is float, rounded outward. Beyond float's range a volume may be without end: then it is
 // met by every ray, and its measures are infinite or NaN.
 #pragma once
@@ -26,6 +27,7 @@
 #include <string_view>
 
 #include <strahl/bounds/fit.h>
+#include <strahl/bounds/side.h>
 #include <strahl/math/ray.h>
 
 namespace strahl {
@@ -75,7 +77,7 @@ template <class V>
 concept BoundingVolume = std::default_initializable<V> && std::copyable<V> &&
     std::constructible_from<typename V::RayData, const PreparedRay&, const Aabb&> &&
     requires(const V& v, const EnclosedSet& set, FitEffort effort, const typename V::RayData& ray,
-             Interval in, const Vec3d& p, EnclosedSet& out) {
+             Interval in, const Vec3d& p, EnclosedSet& out, SideList& sides) {
   { V::kKind } -> std::convertible_to<BoundingVolumeKind>;
   { V::enclose(set, effort) } -> std::same_as<V>;
   { V::merge(v, v) } -> std::same_as<V>;
@@ -85,6 +87,7 @@ concept BoundingVolume = std::default_initializable<V> && std::copyable<V> &&
   { v.contains(p) } -> std::same_as<bool>;
   { v.bytes() } -> std::same_as<std::size_t>;
   v.add_corners_to(out);
+  v.add_sides_to(sides);
 };
 
 /// A volume bounded by planes, so that intersections of such can be measured.

@@ -129,4 +129,12 @@ void CylinderVolume::add_corners_to(EnclosedSet& set) const {
   }
 }
 
+/// radius_ and half_height_ are in units of the axis, which is nearly unit.
+void CylinderVolume::add_sides_to(SideList& sides) const {
+  const Vec3d c(center_), a(axis_);
+  const double along = dot(a, c);
+  sides.add(VolumeSide::tube(c, unit(a), radius_ / length(a)));
+  sides.add_slab(a, along - half_height_, along + half_height_);
+}
+
 }  // namespace strahl

@@ -37,6 +37,7 @@ class CylinderVolume {
   bool contains(const Vec3d& p) const;
   std::size_t bytes() const { return sizeof(*this); }
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
 
  private:
   static CylinderVolume around(const EnclosedSet& set, const Vec3d& center, const Vec3d& axis);

@@ -109,4 +109,9 @@ void HullVolume::add_corners_to(EnclosedSet& set) const {
   body.add_corners_to(set);
 }
 
+void HullVolume::add_sides_to(SideList& sides) const {
+  sides.add(box());
+  for (const FacePlane& f : planes_) sides.add(VolumeSide::plane(Vec3d(f.n), f.offset));
+}
+
 }  // namespace strahl

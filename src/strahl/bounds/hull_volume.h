@@ -55,6 +55,7 @@ class HullVolume {
   std::size_t bytes() const { return sizeof(*this) + planes_.capacity() * sizeof(FacePlane); }
   Aabb box() const { return box_.box(); }
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
   void add_planes_to(Polytope& body) const;
 
  private:

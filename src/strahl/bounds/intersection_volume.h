@@ -59,6 +59,7 @@ class Intersection {
   std::size_t bytes() const { return sizeof(*this) + (owned(std::get<V>(part_)) + ...); }
   /// The corners of what all have in common, else of the first.
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const { (std::get<V>(part_).add_sides_to(sides), ...); }
   template <class W>
   const W& part() const {
     return std::get<W>(part_);

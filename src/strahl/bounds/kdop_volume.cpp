@@ -69,6 +69,11 @@ void KdopVolume<K>::add_corners_to(EnclosedSet& set) const {
   body.add_corners_to(set);
 }
 
+template <int K>
+void KdopVolume<K>::add_sides_to(SideList& sides) const {
+  for (std::size_t i = 0; i < K / 2; ++i) sides.add_slab(dop_direction<K>(i), lo_[i], hi_[i]);
+}
+
 template class KdopVolume<6>;
 template class KdopVolume<14>;
 template class KdopVolume<18>;

@@ -67,6 +67,7 @@ class KdopVolume {
   std::size_t bytes() const { return sizeof(*this); }
   Aabb box() const { return {{lo_[0], lo_[1], lo_[2]}, {hi_[0], hi_[1], hi_[2]}}; }
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
   void add_planes_to(Polytope& body) const;
 
  private:

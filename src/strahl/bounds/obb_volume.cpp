@@ -87,4 +87,8 @@ void ObbVolume::add_planes_to(Polytope& body) const {
   for (const Slab& s : slab_) body.add(Vec3d(s.n), s.hi), body.add(-Vec3d(s.n), -double{s.lo});
 }
 
+void ObbVolume::add_sides_to(SideList& sides) const {
+  for (const Slab& s : slab_) sides.add_slab(Vec3d(s.n), s.lo, s.hi);
+}
+
 }  // namespace strahl

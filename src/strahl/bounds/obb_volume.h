@@ -41,6 +41,7 @@ class ObbVolume {
   std::size_t bytes() const { return sizeof(*this); }
   Aabb box() const;
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
   void add_planes_to(Polytope& body) const;
 
  private:

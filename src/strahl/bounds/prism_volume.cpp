@@ -164,4 +164,10 @@ Aabb PrismVolume::box() const {
   return corners.box();
 }
 
+void PrismVolume::add_sides_to(SideList& sides) const {
+  sides.add_slab(Vec3d(ends_.n), ends_.lo, ends_.hi);
+  for (std::uint32_t i = 0; i < sides_; ++i)
+    sides.add(VolumeSide::plane(Vec3d(side_[i].n), side_[i].offset));
+}
+
 }  // namespace strahl

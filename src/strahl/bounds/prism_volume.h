@@ -45,6 +45,7 @@ class PrismVolume {
   /// Around the corners, a little wider.
   Aabb box() const;
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
   void add_planes_to(Polytope& body) const;
 
  private:

@@ -208,4 +208,11 @@ void ShellVolume::add_corners_to(EnclosedSet& set) const {
   set.add_surface(layer);
 }
 
+void ShellVolume::add_sides_to(SideList& sides) const {
+  const Vec3d c(center_), a(axis_);
+  sides.add(VolumeSide::ball(c, outer_));
+  if (inner_ > 0.0f) sides.add(VolumeSide::hole(c, inner_));
+  if (!is_whole()) sides.add(VolumeSide::cone(c, unit(a), cosine_ / length(a), outer_));
+}
+
 }  // namespace strahl

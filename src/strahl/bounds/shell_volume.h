@@ -42,6 +42,7 @@ class ShellVolume {
   /// Exact layers only where the whole shell is kept; else the corners of a pyramid around the
   /// sector, and its layer.
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
 
  private:
   static constexpr float kWhole = -2.0f;

@@ -52,4 +52,8 @@ void SphereVolume::add_corners_to(EnclosedSet& set) const {
   set.add(ball());
 }
 
+void SphereVolume::add_sides_to(SideList& sides) const {
+  sides.add(VolumeSide::ball(Vec3d(center_), radius_));
+}
+
 }  // namespace strahl

@@ -45,6 +45,7 @@ class SphereVolume {
   bool contains(const Vec3d& p) const { return length(p - Vec3d(center_)) <= radius_; }
   std::size_t bytes() const { return sizeof(*this); }
   void add_corners_to(EnclosedSet& set) const;
+  void add_sides_to(SideList& sides) const;
 
  private:
   Vec3f center_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <stdexcept>
 #include <utility>
 
 #include <strahl/build/agglomerative.h>
@@ -171,8 +172,12 @@ class Agglomeration {
       index.for_slots([&](std::uint32_t slot, std::uint32_t cluster) { slot_[cluster] = slot; });
       while (left_ > 1 && left_ > index.size() / 2) {
         context_.check(1.0 - static_cast<double>(left_) / all, "building");
+        const std::size_t before = left_;
         search(index);
         join_mutual(index);
+        // Of all pairs the nearest are each other's nearest.
+        if (left_ == before)
+          throw std::logic_error("agglomerative: no clusters are each other's nearest");
       }
       clusters = index.rest();
     }
@@ -194,6 +199,7 @@ class Agglomeration {
   void join_mutual(ClusterIndex& index) {
     for (const std::uint32_t i : searching_) {
       const std::uint32_t target = nearest_[i].cluster;
+      if (target == kNone) throw std::logic_error("agglomerative: a cluster has no nearest");
       next_follower_[i] = followers_[target], followers_[target] = i;
     }
     std::vector<std::uint32_t> next;

@@ -1,8 +1,9 @@
-#include <atomic>
 #include <utility>
 #include <vector>
 
+#include <strahl/build/ancestry.h>
 #include <strahl/build/end_point_overlap.h>
+#include <strahl/build/overlap_sum.h>
 #include <strahl/geometry/surface_piece.h>
 
 namespace strahl {
@@ -16,32 +17,14 @@ class OverlapSum {
       : nodes_(tree.nodes.nodes),
         cost_(tree.cost),
         scene_(scene),
-        parent_(nodes_.size(), kNone),
-        first_leaf_(scene.size(), kNone),
-        next_leaf_(tree.nodes.references.size(), kNone),
-        leaf_(tree.nodes.references.size(), kNone) {
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
-      const HierarchyNode& node = nodes_[i];
-      for (std::uint32_t c = 0; c < node.children; ++c) parent_[node.first + c] = i;
-      for (std::uint32_t at = node.first; at < node.first + node.count; ++at) {
-        std::uint32_t& first = first_leaf_[tree.nodes.references[at]];
-        leaf_[at] = i, next_leaf_[at] = first, first = at;
-      }
-    }
-  }
+        ancestry_(tree.nodes, scene.size()) {}
 
-  struct Areas {
-    double surface = 0.0, overlap = 0.0;  ///< of the primitives; weighted by what visits cost
-  };
-
-  Areas sum(std::uint32_t begin, std::uint32_t end) const {
+  OverlapAreas sum(std::uint32_t begin, std::uint32_t end) const {
     std::vector<std::uint32_t> owner(nodes_.size(), kNone);  // last primitive found below
-    Areas areas;
+    OverlapAreas areas;
     for (std::uint32_t i = begin; i < end; ++i) {
-      if (first_leaf_[i] == kNone) continue;
-      for (std::uint32_t at = first_leaf_[i]; at != kNone; at = next_leaf_[at])
-        for (std::uint32_t up = leaf_[at]; up != kNone && owner[up] != i; up = parent_[up])
-          owner[up] = i;
+      if (!ancestry_.holds(i)) continue;
+      ancestry_.mark(i, i, owner);
       visit_surface(scene_, i, [&](const auto& surface) {
         areas.surface += surface.area();
         areas.overlap += overlap_of(i, surface, owner);
@@ -65,43 +48,26 @@ class OverlapSum {
       if (owner[at] != i) {
         piece.cut_to(node.box);
         if (piece.is_empty()) continue;
-        sum += piece.area() * cost_of(node);
+        sum += piece.area() * cost_.of(node);
       }
       for (std::uint32_t c = 0; c < node.children; ++c) waiting.emplace_back(node.first + c, piece);
     }
     return sum;
   }
 
-  double cost_of(const HierarchyNode& node) const {
-    return node.is_leaf() ? cost_.leaf + cost_.reference * node.count : cost_.inner;
-  }
-
   const std::vector<HierarchyNode>& nodes_;
   VisitCost cost_;
   const Scene& scene_;
-  std::vector<std::uint32_t> parent_;
-  /// Places of a primitive among the references, as a list, and the leaf of each.
-  std::vector<std::uint32_t> first_leaf_, next_leaf_, leaf_;
+  Ancestry ancestry_;
 };
 
 }  // namespace
 
 double end_point_overlap(const BoxTree& tree, const Scene& scene, const BuildContext& context) {
   if (tree.nodes.nodes.empty()) return 0.0;
-  constexpr std::size_t kChunks = 64;
-  const std::size_t grain = scene.size() / kChunks + 1;
   const OverlapSum sums(tree, scene);
-  std::vector<OverlapSum::Areas> parts(kChunks);
-  std::atomic<std::size_t> done{0};
-  context.executor.parallel_for(0, scene.size(), grain, [&](std::size_t from, std::size_t to) {
-    parts[from / grain] =
-        sums.sum(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to));
-    context.check(static_cast<double>(++done) / kChunks, "end-point overlap");
-  });
-  OverlapSum::Areas all;
-  for (const OverlapSum::Areas& part : parts)
-    all.surface += part.surface, all.overlap += part.overlap;
-  return all.surface > 0.0 ? all.overlap / all.surface : 0.0;
+  return overlap_share(
+      scene, context, [&](std::uint32_t begin, std::uint32_t end) { return sums.sum(begin, end); });
 }
 
 }  // namespace strahl

@@ -121,9 +121,10 @@ class Accelerator {
   /// Content hash of the built structure: equal for any number of threads.
   virtual std::uint64_t tree_hash() const = 0;
   /// What visits of nodes cost that hold the end of a ray, but not the primitive it ends on
-  /// [Aila2013]; in steps, as sah_cost. Nothing for structures other than trees of boxes around
-  /// primitives of the scene: cells of divided space hold no surface but that of their own
-  /// primitives. Costly: O(primitives * boxes they reach). Throws Error{cancelled}.
+  /// [Aila2013]; in steps, as sah_cost; see build/end_point_overlap.h. Nothing for structures other
+  /// than trees of bounding volumes, or two_level with others: cells of divided space hold no
+  /// surface but that of their own primitives. Costly, O(primitives * volumes they reach), so not
+  /// part of the report. Throws Error{cancelled}.
   virtual std::optional<double> end_point_overlap(const BuildContext& context) const;
   /// The first bounding volume that a valid ray enters from outside, of the nodes at that depth of
   /// the tree and of leaves above it. For pictures: entries are early by the volumes' margins.

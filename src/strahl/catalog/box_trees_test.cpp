@@ -104,12 +104,10 @@ TEST(BoxTrees, OverlapCountsStepsAndTests) {
   }
 }
 
-TEST(BoxTrees, AreThoseOfBoxesOnly) {
+TEST(BoxTrees, AreNotThoseOfDividedSpace) {
   const test::ScenePtr scene = test::soup(100, 0.1, 5).scene();
-  for (const char* spec : {"brute_force", "grid", "kd_tree", "octree", "bvh:bv=sphere",
-                           "bvh:bv=kdop14", "bvh:bv=auto", "two_level"})
+  for (const char* spec : {"brute_force", "grid", "kd_tree", "octree"})
     EXPECT_FALSE(build(scene, spec)->end_point_overlap({})) << spec;
-  EXPECT_NEAR(overlap(scene, "bvh:bv=kdop6"), overlap(scene, "bvh"), 1e-6);
 }
 
 }  // namespace

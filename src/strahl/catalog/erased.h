@@ -14,6 +14,7 @@
 #include <strahl/build/end_point_overlap.h>
 #include <strahl/catalog/accelerator.h>
 #include <strahl/catalog/catalog.h>
+#include <strahl/catalog/measured_tree.h>
 #include <strahl/query/float_rays.h>
 #include <strahl/query/policies.h>
 #include <strahl/query/scene_visitor.h>
@@ -45,12 +46,6 @@ concept TakesLevels = std::constructible_from<S, const Scene&, const typename S:
 template <class S>
 concept Moves = requires(S& s, const Scene& pose, const BuildContext& context) {
   s.move(pose, context);
-};
-
-/// A structure that is a tree of boxes, under all of its options or some.
-template <class S>
-concept HasBoxTree = requires(const S& s) {
-  { s.box_tree() } -> std::convertible_to<std::optional<BoxTree>>;
 };
 
 /// A tree whose bounding volumes can be looked at.
@@ -93,12 +88,14 @@ class Erased final : public Accelerator {
     }
   }
   std::optional<double> end_point_overlap(const BuildContext& context) const override {
+    const FpEnvGuard environment;
     if constexpr (HasBoxTree<S>) {
-      const FpEnvGuard environment;
       const std::optional<BoxTree> tree = structure_.box_tree();
       if (tree) return strahl::end_point_overlap(*tree, *scene_, context);
     }
-    return std::nullopt;
+    const std::shared_ptr<const SideTree> tree = side_tree_of(structure_);
+    if (tree == nullptr) return std::nullopt;
+    return strahl::end_point_overlap(*tree, *scene_, context);
   }
   VolumeEntry first_volume(const Ray& ray, int depth) const override {
     if constexpr (ShowsVolumes<S>) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <strahl/catalog/catalog.h>
+#include <strahl/catalog/measured_tree.h>
 #include <strahl/structures/two_level/thing_visitor.h>
 
 namespace strahl {
@@ -46,6 +47,7 @@ class LevelOf final : public Level {
   }
 
   BuildReport report() const override { return structure_.report(); }
+  std::shared_ptr<const SideTree> side_tree() const override { return side_tree_of(structure_); }
   void validate(const PrimitiveSource& source) const override { structure_.validate(source); }
   void hash_into(Hash64& hash) const override { structure_.hash_into(hash); }
 

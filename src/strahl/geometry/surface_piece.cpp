@@ -24,15 +24,6 @@ std::array<Vec3d, 3> axes_around(const Vec3d& axis) {
   return {u, cross(w, u), w};
 }
 
-/// At least the largest factor by which the map stretches a length.
-double longest_stretch_of(const Affine& map) {
-  double columns = 0.0;
-  for (std::size_t c = 0; c < 3; ++c)
-    columns =
-        std::max(columns, std::abs(map.m[0][c]) + std::abs(map.m[1][c]) + std::abs(map.m[2][c]));
-  return std::sqrt(norm_rows(map) * columns);
-}
-
 enum class Place { outside, across, inside };
 
 /// Where a ball is. NaN planes cut nothing.
@@ -110,14 +101,14 @@ CurvedSurface::CurvedSurface(const Cone& cone, const Affine& to_world)
 
 /// Nothing is divided that is small against the whole or near the roundings of its place.
 void CurvedSurface::finish() {
-  if (is_placed_) longest_stretch_ = longest_stretch_of(to_world_);
+  if (is_placed_) longest_stretch_ = longest_stretch(to_world_);
   const Vec3d at = middle(whole());
   least_reach_ = std::max(0x1p-20 * reach(whole()), 0x1p-40 * norm_max(at));
   width_ = 2.0 * longest_stretch_ * std::max(radius_, top_radius_);
 }
 
-double CurvedSurface::fine_reach(const Aabb& box) const {
-  return std::max(std::min(norm_max(box.extent()), width_) / kFineness, least_reach_);
+double CurvedSurface::fine_reach(double extent) const {
+  return std::max(std::min(extent, width_) / kFineness, least_reach_);
 }
 
 Patch CurvedSurface::whole() const { return {0.0, is_sphere_ ? kPi : 1.0, 0.0, 2.0 * kPi}; }
@@ -155,14 +146,18 @@ double CurvedSurface::area(const Patch& p) const {
   return object_area(p) * stretch_at(0.5 * (p.u0 + p.u1), 0.5 * (p.v0 + p.v1));
 }
 
-double CurvedSurface::share_inside(const Patch& p, const Aabb& box) const {
+std::array<TriangleVertices, 2> CurvedSurface::flattened(const Patch& p) const {
   std::array<Vec3d, 4> corner{point(p.u0, p.v0), point(p.u1, p.v0), point(p.u1, p.v1),
                               point(p.u0, p.v1)};
   const Vec3d mean = 0.25 * ((corner[0] + corner[2]) + (corner[1] + corner[3]));
   for (Vec3d& c : corner) c = c + (2.0 / 3.0) * (middle(p) - mean);
+  return {{{corner[0], corner[1], corner[2]}, {corner[0], corner[3], corner[2]}}};
+}
+
+double CurvedSurface::share_inside(const Patch& p, const Aabb& box) const {
   double whole = 0.0, inside = 0.0;
-  for (const std::size_t side : {1u, 3u}) {
-    FlatPiece half({corner[0], corner[side], corner[2]});
+  for (const TriangleVertices& triangle : flattened(p)) {
+    FlatPiece half(triangle);
     whole += half.area();
     half.cut_to(box);
     inside += half.area();
@@ -200,7 +195,7 @@ double CurvedSurface::stretch_at(double u, double v) const {
 }
 
 void CurvedPiece::cut_to(const Aabb& box) {
-  const double fine = surface_->fine_reach(box);
+  const double fine = surface_->fine_reach(norm_max(box.extent()));
   std::vector<Patch> waiting = std::move(patches_);
   patches_.clear(), area_ = 0.0;
   while (!waiting.empty()) {

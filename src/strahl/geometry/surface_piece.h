@@ -14,6 +14,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 #include <vector>
 
 #include <strahl/geometry/scene.h>
@@ -57,10 +58,12 @@ class CurvedSurface {
   /// Radius of a ball around the middle that holds the patch.
   double reach(const Patch& patch) const;
   double area(const Patch& patch) const;
+  /// Two triangles between its corners, moved to where the patch is in the mean.
+  std::array<TriangleVertices, 2> flattened(const Patch& patch) const;
   /// The part of its area inside the box, as if it was flat.
   double share_inside(const Patch& patch, const Aabb& box) const;
-  /// Patches that faces of the box cross are halved down to this.
-  double fine_reach(const Aabb& box) const;
+  /// Patches that the boundary of something of that extent crosses are halved down to this.
+  double fine_reach(double extent) const;
 
  private:
   double radius_at(double u) const;
@@ -98,9 +101,10 @@ class CurvedPiece {
   double area_;                 ///< of what they have in it
 };
 
-/// visit(piece) with all of a primitive that can be hit, in world space.
+/// visit(surface) with a primitive that can be hit, in world space: its TriangleVertices or its
+/// CurvedSurface.
 template <class Visit>
-auto visit_surface(const Scene& scene, std::uint32_t reference, Visit visit) {
+auto visit_shape(const Scene& scene, std::uint32_t reference, Visit visit) {
   const Part& part = scene.part_of(reference);
   const Geometry& g = scene.geometries()[part.geometry];
   const std::uint32_t prim = reference - part.first_reference;
@@ -108,12 +112,23 @@ auto visit_surface(const Scene& scene, std::uint32_t reference, Visit visit) {
       scene.is_identity(part.instance) ? Affine{} : scene.instances()[part.instance].to_world;
   if (g.kind == PrimitiveKind::triangle) {
     const TriangleVertices t = g.mesh[prim];
-    return visit(FlatPiece({map.point(t.a), map.point(t.b), map.point(t.c)}));
+    return visit(TriangleVertices{map.point(t.a), map.point(t.b), map.point(t.c)});
   }
   const CurvedSurface surface = g.kind == PrimitiveKind::sphere
                                     ? CurvedSurface(g.spheres[prim], map)
                                     : CurvedSurface(g.cones[prim], map);
-  return visit(CurvedPiece(surface));
+  return visit(surface);
+}
+
+/// visit(piece) with all of it, as a FlatPiece or a CurvedPiece.
+template <class Visit>
+auto visit_surface(const Scene& scene, std::uint32_t reference, Visit visit) {
+  return visit_shape(scene, reference, [&]<class Shape>(const Shape& shape) {
+    if constexpr (std::is_same_v<Shape, TriangleVertices>)
+      return visit(FlatPiece(shape));
+    else
+      return visit(CurvedPiece(shape));
+  });
 }
 
 }  // namespace strahl

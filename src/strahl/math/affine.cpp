@@ -64,6 +64,13 @@ double norm_rows(const Affine& a) {
   return norm;
 }
 
+double longest_stretch(const Affine& a) {
+  double columns = 0.0;
+  for (std::size_t c = 0; c < 3; ++c)
+    columns = std::max(columns, std::abs(a.m[0][c]) + std::abs(a.m[1][c]) + std::abs(a.m[2][c]));
+  return std::sqrt(norm_rows(a) * columns);
+}
+
 bool is_well_conditioned(const Affine& a) {
   for (const auto& r : a.m)
     for (double v : r)

@@ -62,6 +62,9 @@ Affine inverse(const Affine& a);
 /// Largest row sum of magnitudes of the linear part.
 double norm_rows(const Affine& a);
 
+/// At least the largest factor by which the linear part stretches a length.
+double longest_stretch(const Affine& a);
+
 /// True when all entries are finite and the condition number of the linear part (row-sum norm
 /// times that of the inverse) is at most 2^30.
 bool is_well_conditioned(const Affine& a);

@@ -85,6 +85,12 @@ class AnyVolume {
   bool contains(const Vec3d& p) const {
     return with_volume_type(kind(), [&]<class V>() { return get<V>().contains(p); });
   }
+  void add_corners_to(EnclosedSet& set) const {
+    with_volume_type(kind(), [&]<class V>() { get<V>().add_corners_to(set); });
+  }
+  void add_sides_to(SideList& sides) const {
+    with_volume_type(kind(), [&]<class V>() { get<V>().add_sides_to(sides); });
+  }
   std::size_t bytes() const {
     return sizeof(*this) + with_volume_type(kind(), [&]<class V>() {
              return any_volume_detail::kIsSmall<V> ? 0 : get<V>().bytes();

@@ -6,6 +6,7 @@
 #include <strahl/structures/bvh/any_volume.h>
 #include <strahl/structures/bvh/bvh.h>
 #include <strahl/structures/bvh/bvh_refit.h>
+#include <strahl/structures/bvh/child_order.h>
 #include <strahl/structures/bvh/volume_choice.h>
 
 namespace strahl {
@@ -29,20 +30,36 @@ namespace {
 /// What a hull or a prism may own besides itself.
 constexpr std::uint64_t kOwned = 12 * sizeof(FacePlane);
 
+/// Children are put in order after the volumes were fitted, so that these are the same for all
+/// traversals.
+template <class V>
+std::unique_ptr<VolumeTree> join_tree(Hierarchy hierarchy, std::vector<V> volumes,
+                                      BvhTraversal traversal, const SahCost& cost) {
+  const Aabb world = hierarchy.nodes[0].box;
+  ChildOrder order;
+  if (traversal == BvhTraversal::direction) {
+    order = order_children(hierarchy);
+    volumes = order.applied_to(std::move(volumes));
+  }
+  return std::make_unique<BvhTree<V>>(std::move(hierarchy), std::move(volumes), world, cost,
+                                      order.axes);
+}
+
 template <class V>
 std::unique_ptr<VolumeTree> make_tree(const PrimitiveSource& source, Hierarchy hierarchy,
-                                      const SahCost& cost, const BuildContext& context) {
+                                      BvhTraversal traversal, const SahCost& cost,
+                                      const BuildContext& context) {
   const std::uint64_t per_node = sizeof(BvhNode<V>) + sizeof(V) + sizeof(HierarchyNode) +
                                  (std::is_trivially_copyable_v<V> ? 0 : kOwned);
   context.require_memory(hierarchy.nodes.size() * per_node, "bvh");
-  const Aabb world = hierarchy.nodes[0].box;
   std::vector<V> volumes = fit_volumes<V>(NodeContents(source, hierarchy), context);
-  return std::make_unique<BvhTree<V>>(std::move(hierarchy), std::move(volumes), world, cost);
+  return join_tree(std::move(hierarchy), std::move(volumes), traversal, cost);
 }
 
 /// Each node with the kind that the cost model prefers.
 std::unique_ptr<VolumeTree> make_auto_tree(const PrimitiveSource& source, Hierarchy hierarchy,
-                                           const SahCost& cost, const BuildContext& context) {
+                                           BvhTraversal traversal, const SahCost& cost,
+                                           const BuildContext& context) {
   constexpr std::uint64_t kPerNode = sizeof(BvhNode<AnyVolume>) + sizeof(AnyVolume) +
                                      sizeof(HierarchyNode) + kOwned + 2 * sizeof(VolumeAreas);
   context.require_memory(hierarchy.nodes.size() * kPerNode, "bvh");
@@ -56,9 +73,7 @@ std::unique_ptr<VolumeTree> make_auto_tree(const PrimitiveSource& source, Hierar
     volumes[i] = with_volume_type(kinds[i],
                                   [&]<class V>() { return AnyVolume(fit_volume<V>(contents, i)); });
   });
-  const Aabb world = hierarchy.nodes[0].box;
-  return std::make_unique<BvhTree<AnyVolume>>(std::move(hierarchy), std::move(volumes), world,
-                                              cost);
+  return join_tree(std::move(hierarchy), std::move(volumes), traversal, cost);
 }
 
 }  // namespace
@@ -76,10 +91,10 @@ Bvh::Bvh(const PrimitiveSource& source, const Options& options, const BuildConte
 void Bvh::take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildContext& context) {
   const SahCost cost{options_.traverse_cost, options_.intersect_cost};
   if (options_.bv == BvhVolume::automatic)
-    tree_ = make_auto_tree(source, std::move(hierarchy), cost, context);
+    tree_ = make_auto_tree(source, std::move(hierarchy), traversal_, cost, context);
   else
     tree_ = with_volume_type(static_cast<BoundingVolumeKind>(options_.bv), [&]<class V>() {
-      return make_tree<V>(source, std::move(hierarchy), cost, context);
+      return make_tree<V>(source, std::move(hierarchy), traversal_, cost, context);
     });
   const auto* boxes = dynamic_cast<const BvhTree<AabbVolume>*>(tree_.get());
   const bool is_fast =
@@ -105,7 +120,18 @@ void Bvh::refit(const PrimitiveSource& source, const BuildContext& context) {
 std::optional<BoxTree> Bvh::box_tree() const {
   std::optional<Hierarchy> nodes = tree_ ? tree_->box_hierarchy() : Hierarchy{};
   if (!nodes) return std::nullopt;
-  return BoxTree{*std::move(nodes), {1.0, 0.0, options_.intersect_cost / options_.traverse_cost}};
+  return BoxTree{*std::move(nodes), visit_cost()};
+}
+
+std::shared_ptr<const SideTree> Bvh::side_tree() const {
+  SideTree tree;
+  if (tree_) tree = tree_->side_tree();
+  tree.cost = visit_cost();
+  return std::make_shared<const SideTree>(std::move(tree));
+}
+
+VisitCost Bvh::visit_cost() const {
+  return {1.0, 0.0, options_.intersect_cost / options_.traverse_cost};
 }
 
 void Bvh::validate(const PrimitiveSource& source) const {

@@ -52,7 +52,8 @@ class Bvh {
   template <class Prims, class Q, class C>
   void trace(Prims& prims, const PreparedRay& ray, Q& query, C& counters) const {
     if (binary_boxes_ != nullptr)
-      return walk(BvhView<AabbVolume, true, 2>(*binary_boxes_, ray), prims, ray, query, counters);
+      return walk(BvhView<AabbVolume, BvhOrder::entry, 2>(*binary_boxes_, ray), prims, ray, query,
+                  counters);
     if (tree_ == nullptr) return;
     LeafQueryOf<Prims, Q, C> leaves(prims, ray, query, counters);
     tree_->trace(traversal_for<Q>(), ray, leaves, counters);
@@ -68,6 +69,8 @@ class Bvh {
   }
   /// Nothing where the volumes are not boxes. O(nodes).
   std::optional<BoxTree> box_tree() const;
+  /// Whatever the volumes are. O(nodes).
+  std::shared_ptr<const SideTree> side_tree() const;
   const VolumeTree* tree() const { return tree_.get(); }
 
  private:
@@ -80,6 +83,7 @@ class Bvh {
   }
 
   explicit Bvh(const Options& options) : options_(options), traversal_(options.traversal) {}
+  VisitCost visit_cost() const;
   void take(const PrimitiveSource& source, Hierarchy hierarchy, const BuildContext& context);
 
   friend class BvhBreaker;  ///< plants faults for the tests

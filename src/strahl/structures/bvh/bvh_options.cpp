@@ -65,11 +65,14 @@ OptionTable<BvhOptions> option_fields(const BvhOptions*) {
       option("traverse_cost", &BvhOptions::traverse_cost, 0.001, 1000.0, "cost of a node step"),
       option("intersect_cost", &BvhOptions::intersect_cost, 0.001, 1000.0,
              "cost of a primitive test"),
-      option("traversal", &BvhOptions::traversal,
-             {{"dfs", BvhTraversal::dfs},
-              {"ordered", BvhTraversal::ordered},
-              {"heap", BvhTraversal::heap}},
-             "order of visits: the tree's, nearest child first, or nearest of all from a heap"),
+      option(
+          "traversal", &BvhOptions::traversal,
+          {{"dfs", BvhTraversal::dfs},
+           {"ordered", BvhTraversal::ordered},
+           {"direction", BvhTraversal::direction},
+           {"heap", BvhTraversal::heap}},
+          "order of visits: the tree's, nearest child first, children by the ray's direction, or "
+          "nearest of all from a heap"),
       option("rebuild_factor", &BvhOptions::rebuild_factor, 1.0, 1000.0,
              "when things move: built anew where fitting makes the SAH cost this times as high"),
   };

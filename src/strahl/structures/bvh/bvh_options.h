@@ -24,8 +24,9 @@ enum class BvhVolume {
   intersection,
   automatic
 };
-/// In the order of the tree; nearest child first; nearest of all waiting subtrees first.
-enum class BvhTraversal { dfs, ordered, heap };
+/// In the order of the tree; nearest child first; children by the ray's direction along the axis in
+/// which their centres differ most; nearest of all waiting subtrees first.
+enum class BvhTraversal { dfs, ordered, direction, heap };
 enum class BvhBuilder {
   scene_graph,
   median_cyclic,

@@ -22,12 +22,16 @@ namespace strahl {
 template <class V>
 struct BvhNode {
   static constexpr std::uint32_t kInner = 0x80000000u;
+  static constexpr int kAxisShift = 29;  ///< two bits below kInner
+  static constexpr std::uint32_t kMostSize = (1u << kAxisShift) - 1;
 
   V volume;
   std::uint32_t first = 0, size_and_kind = 0;
 
   bool is_leaf() const { return size_and_kind < kInner; }
-  std::uint32_t size() const { return size_and_kind & ~kInner; }
+  std::uint32_t size() const { return size_and_kind & kMostSize; }
+  /// Along which the children of an inner node ascend, where the tree is visited by direction.
+  int axis() const { return static_cast<int>(size_and_kind >> kAxisShift & 3u); }
 };
 
 template <class V>
@@ -37,7 +41,9 @@ class BvhTree final : public VolumeTree {
 
   /// @param volumes one per node
   /// @param world   encloses everything
-  BvhTree(Hierarchy hierarchy, std::vector<V> volumes, const Aabb& world, const SahCost& cost);
+  /// @param axes    one per node, see order_children(); or none
+  BvhTree(Hierarchy hierarchy, std::vector<V> volumes, const Aabb& world, const SahCost& cost,
+          std::span<const std::uint8_t> axes);
 
   void trace(BvhTraversal traversal, const PreparedRay& ray, LeafQuery& leaves,
              NoCounters& counters) const override {
@@ -51,6 +57,7 @@ class BvhTree final : public VolumeTree {
   const BuildReport& report() const override { return report_; }
   Hierarchy hierarchy() const override;
   std::optional<Hierarchy> box_hierarchy() const override;
+  SideTree side_tree() const override;
   void validate(const PrimitiveSource& source, bool refers_once) const override;
   void hash_into(Hash64& hash) const override;
 
@@ -80,10 +87,13 @@ class BvhTree final : public VolumeTree {
   BuildReport report_;
 };
 
+/// Children are visited in the order of the tree, of their entries, or of the tree or against it,
+/// as the ray runs along the node's axis.
+enum class BvhOrder { tree, entry, direction };
+
 /// A tree as one ray sees it, for the loops of traverse/. Tree and ray must outlive it.
-/// @tparam kSorts children are visited in the order of their entries, else in that of the tree
 /// @tparam kArity most children of a node; 2 also means no fewer
-template <class V, bool kSorts, int kArity = kBvhMaxArity>
+template <class V, BvhOrder kOrder, int kArity = kBvhMaxArity>
 class BvhView {
  public:
   static constexpr int kMaxChildren = kArity;
@@ -102,16 +112,18 @@ class BvhView {
     return {references_ + node(i).first, node(i).size()};
   }
   template <class C>
-  int expand(const PreparedRay&, const NodeVisit& at, NodeVisit* child, C& counters) const {
+  int expand(const PreparedRay& ray, const NodeVisit& at, NodeVisit* child, C& counters) const {
     const std::uint32_t first = node(at.node).first, size = node(at.node).size();
     counters.volume_tests(static_cast<int>(size));
     if constexpr (kArity == 2) return expand_pair(first, at.span, child);
+    const bool is_backward = kOrder == BvhOrder::direction && ray.negative[node(at.node).axis()];
     int entered = 0;
-    for (std::uint32_t i = first; i < first + size; ++i) {
+    for (std::uint32_t k = 0; k < size; ++k) {
+      const std::uint32_t i = first + (is_backward ? size - 1 - k : k);
       const Interval span = node(i).volume.clip(ray_, at.span);
       if (span.t_enter > span.t_exit) continue;
       int to = entered++;
-      if constexpr (kSorts) {
+      if constexpr (kOrder == BvhOrder::entry) {
         for (; to > 0 && span.t_enter < child[to - 1].span.t_enter; --to) child[to] = child[to - 1];
       }
       child[to] = {i, span};
@@ -126,8 +138,10 @@ class BvhView {
     child[1] = {first + 1, node(first + 1).volume.clip(ray_, span)};
     const bool left = child[0].span.t_enter <= child[0].span.t_exit;
     const bool right = child[1].span.t_enter <= child[1].span.t_exit;
+    static_assert(kArity != 2 || kOrder != BvhOrder::direction);
     if (left && right) {
-      if (kSorts && child[1].span.t_enter < child[0].span.t_enter) std::swap(child[0], child[1]);
+      if (kOrder == BvhOrder::entry && child[1].span.t_enter < child[0].span.t_enter)
+        std::swap(child[0], child[1]);
       return 2;
     }
     if (right) child[0] = child[1];

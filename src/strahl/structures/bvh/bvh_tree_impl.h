@@ -11,15 +11,16 @@ namespace strahl {
 
 template <class V>
 BvhTree<V>::BvhTree(Hierarchy hierarchy, std::vector<V> volumes, const Aabb& world,
-                    const SahCost& cost)
+                    const SahCost& cost, std::span<const std::uint8_t> axes)
     : references_(std::move(hierarchy.references)), world_(world), cost_(cost) {
   nodes_.reserve(volumes.size());
   std::uint64_t owned = 0;  // by the volumes besides themselves
   for (std::size_t i = 0; i < volumes.size(); ++i) {
     const HierarchyNode& from = hierarchy.nodes[i];
-    if (from.children > static_cast<std::uint32_t>(kBvhMaxArity))
-      throw std::logic_error("bvh: a node of the hierarchy has too many children");
-    const std::uint32_t size = from.is_leaf() ? from.count : from.children | Node::kInner;
+    if (from.children > static_cast<std::uint32_t>(kBvhMaxArity) || from.count > Node::kMostSize)
+      throw std::logic_error("bvh: a node of the hierarchy has too many children or references");
+    const std::uint32_t axis = axes.empty() ? 0u : std::uint32_t{axes[i]} << Node::kAxisShift;
+    const std::uint32_t size = from.is_leaf() ? from.count : from.children | axis | Node::kInner;
     owned += volumes[i].bytes() - sizeof(V);
     nodes_.push_back({std::move(volumes[i]), from.first, size});
     report_.leaves += from.is_leaf();
@@ -38,11 +39,13 @@ void BvhTree<V>::trace_in(BvhTraversal traversal, const PreparedRay& ray, LeafQu
                           C& counters) const {
   switch (traversal) {
     case BvhTraversal::dfs:
-      return walk(BvhView<V, false>(*this, ray), leaves, ray, leaves, counters);
+      return walk(BvhView<V, BvhOrder::tree>(*this, ray), leaves, ray, leaves, counters);
     case BvhTraversal::ordered:
-      return walk(BvhView<V, true>(*this, ray), leaves, ray, leaves, counters);
+      return walk(BvhView<V, BvhOrder::entry>(*this, ray), leaves, ray, leaves, counters);
+    case BvhTraversal::direction:
+      return walk(BvhView<V, BvhOrder::direction>(*this, ray), leaves, ray, leaves, counters);
     case BvhTraversal::heap:
-      return walk_best_first(BvhView<V, false>(*this, ray), leaves, ray, leaves, counters);
+      return walk_best_first(BvhView<V, BvhOrder::tree>(*this, ray), leaves, ray, leaves, counters);
   }
 }
 
@@ -115,6 +118,14 @@ std::optional<Hierarchy> BvhTree<V>::box_hierarchy() const {
     return out;
   }
   return std::nullopt;
+}
+
+template <class V>
+SideTree BvhTree<V>::side_tree() const {
+  SideTree out;
+  for (const Node& node : nodes_) out.add_volume(node.volume);
+  out.nodes = hierarchy();
+  return out;
 }
 
 template <class V>

@@ -16,7 +16,7 @@ namespace strahl {
 namespace test {
 namespace {
 
-const std::string kTraversals[] = {"dfs", "ordered", "heap"};
+const std::string kTraversals[] = {"dfs", "ordered", "direction", "heap"};
 
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
@@ -128,7 +128,7 @@ TEST(BvhVolumes, TheHeapNeverOpensMoreNodesThanOtherOrdersOnAnyRay) {
       const std::string spec = "bvh:leaf_size=1,bv=" + kind + ",traversal=";
       const auto heap = work_per_ray(scene, rays, spec + "heap");
       std::size_t fewer = 0;
-      for (const char* other : {"dfs", "ordered"}) {
+      for (const char* other : {"dfs", "ordered", "direction"}) {
         const auto work = work_per_ray(scene, rays, spec + other);
         for (std::size_t i = 0; i < rays.size(); ++i) {
           ASSERT_LE(heap[i].traversal_steps, work[i].traversal_steps) << spec << i;

@@ -6,6 +6,7 @@
 #include <strahl/base/hash.h>
 #include <strahl/build/build_report.h>
 #include <strahl/build/hierarchy.h>
+#include <strahl/build/side_tree.h>
 #include <strahl/geometry/primitive_source.h>
 #include <strahl/query/counters.h>
 #include <strahl/query/volume_entry.h>
@@ -34,6 +35,8 @@ class VolumeTree {
   virtual Hierarchy hierarchy() const = 0;
   /// With boxes, where its volumes are boxes along the axes.
   virtual std::optional<Hierarchy> box_hierarchy() const = 0;
+  /// With the sides of its volumes; the cost is left as it is by default.
+  virtual SideTree side_tree() const = 0;
   /// @param refers_once whether no primitive may be in two leaves
   virtual void validate(const PrimitiveSource& source, bool refers_once) const = 0;
   virtual void hash_into(Hash64& hash) const = 0;

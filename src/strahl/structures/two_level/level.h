@@ -14,6 +14,7 @@
 #include <strahl/base/build_context.h>
 #include <strahl/base/hash.h>
 #include <strahl/build/build_report.h>
+#include <strahl/build/side_tree.h>
 #include <strahl/query/counters.h>
 #include <strahl/query/instance_visitor.h>
 #include <strahl/query/policies.h>
@@ -54,6 +55,8 @@ class Level {
   virtual void trace(ThingVisitor&, const PreparedRay&, ThingQuery&, Counters&) const = 0;
 
   virtual BuildReport report() const = 0;
+  /// Its volumes, numbered as the source it was built over; null unless it is a tree of volumes.
+  virtual std::shared_ptr<const SideTree> side_tree() const = 0;
   /// Throws std::logic_error naming the first broken invariant.
   virtual void validate(const PrimitiveSource& source) const = 0;
   virtual void hash_into(Hash64& hash) const = 0;

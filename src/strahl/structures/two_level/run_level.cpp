@@ -66,7 +66,7 @@ RunSource run_of(const PrimitiveSource& source, std::span<const std::uint32_t> s
 
 RunLevel::RunLevel(const PrimitiveSource& source, const TwoLevelOptions& options,
                    const BuildContext& context, LevelMaker make_level)
-    : starts_(divide(source.size())) {
+    : size_(source.size()), starts_(divide(size_)) {
   std::vector<LevelTask> tasks;
   for (std::size_t run = 0; run < starts_.size(); ++run)
     tasks.push_back({run_of(source, starts_, run).size(), [&, run](const BuildContext& own) {
@@ -91,6 +91,15 @@ BuildReport RunLevel::report() const {
   for (const std::unique_ptr<Level>& bottom : bottoms_) cost += bottom->report().sah_cost;
   if (!bottoms_.empty()) report.sah_cost *= 1.0 + cost / static_cast<double>(bottoms_.size());
   return report;
+}
+
+std::shared_ptr<const SideTree> RunLevel::side_tree() const {
+  std::vector<SideTree::Thing> runs;
+  for (std::size_t run = 0; run < bottoms_.size(); ++run) {
+    const std::uint32_t end = run + 1 < starts_.size() ? starts_[run + 1] : size_;
+    runs.push_back({bottoms_[run]->side_tree(), starts_[run], end - starts_[run], {}});
+  }
+  return stacked(top_->side_tree(), runs);
 }
 
 void RunLevel::validate(const PrimitiveSource& source) const {

@@ -53,6 +53,7 @@ class RunLevel final : public Level {
   }
 
   BuildReport report() const override;
+  std::shared_ptr<const SideTree> side_tree() const override;
   void validate(const PrimitiveSource& source) const override;
   void hash_into(Hash64& hash) const override;
 
@@ -71,6 +72,7 @@ class RunLevel final : public Level {
     top_->trace(runs, ray, query, counters);
   }
 
+  std::uint32_t size_;                 ///< of the source
   std::vector<std::uint32_t> starts_;  ///< per run
   std::unique_ptr<Level> top_;
   std::vector<std::unique_ptr<Level>> bottoms_;  ///< per run

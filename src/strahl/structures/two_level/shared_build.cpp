@@ -88,4 +88,11 @@ BuildReport stacked(const BuildReport& top, const BuildReport& bottoms) {
   return sum;
 }
 
+std::shared_ptr<const SideTree> stacked(const std::shared_ptr<const SideTree>& top,
+                                        std::span<const SideTree::Thing> things) {
+  const auto is_known = [](const SideTree::Thing& thing) { return thing.tree != nullptr; };
+  if (top == nullptr || !std::all_of(things.begin(), things.end(), is_known)) return nullptr;
+  return std::make_shared<const SideTree>(with_things(*top, things));
+}
+
 }  // namespace strahl

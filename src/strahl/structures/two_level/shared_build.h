@@ -30,5 +30,8 @@ BuildContext after_owning(const BuildContext& context, std::uint64_t bytes);
 BuildReport sum_of(std::span<const std::unique_ptr<Level>> levels);
 /// A level above others: the report of both.
 BuildReport stacked(const BuildReport& top, const BuildReport& bottoms);
+/// Their trees; null unless all are trees of volumes.
+std::shared_ptr<const SideTree> stacked(const std::shared_ptr<const SideTree>& top,
+                                        std::span<const SideTree::Thing> things);
 
 }  // namespace strahl

@@ -99,6 +99,19 @@ BuildReport TwoLevel::report() const {
   return report;
 }
 
+std::shared_ptr<const SideTree> TwoLevel::side_tree() const {
+  const Scene& scene = instances_.scene();
+  std::vector<std::shared_ptr<const SideTree>> trees;
+  for (const std::unique_ptr<Level>& level : bottoms_) trees.push_back(level->side_tree());
+  std::vector<SideTree::Thing> things;
+  for (std::uint32_t i = 0; i < instances_.size(); ++i) {
+    things.push_back({trees[instances_.object_of(i)], scene.first_reference(i),
+                      scene.reference_count(i), std::nullopt});
+    if (!scene.is_identity(i)) things.back().placement.emplace(scene.to_object()[i]);
+  }
+  return stacked(top_->side_tree(), things);
+}
+
 void TwoLevel::validate(const Scene& scene) const {
   const InstanceSource instances(scene);
   if (level_of_.size() != instances.size()) broken("instances and levels differ in number");

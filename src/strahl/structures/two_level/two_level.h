@@ -58,6 +58,9 @@ class TwoLevel {
   /// Sums of both levels; depth counts the step from top to bottom; sah_cost weights each bottom by
   /// the chance that a line through the scene meets its instance's box.
   BuildReport report() const;
+  /// Both levels, each bottom below all instances that share it; null unless both are trees of
+  /// volumes.
+  std::shared_ptr<const SideTree> side_tree() const;
   /// Throws std::logic_error naming the first broken invariant.
   void validate(const Scene& scene) const;
   void hash_into(Hash64& hash) const;
