@@ -18,6 +18,7 @@
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/atomic_file.h>
 #include <strahl/io/png.h>
+#include <strahl/measure/statistics.h>
 #include <strahl/render/framing.h>
 #include <strahl/render/heat_map.h>
 
@@ -104,29 +105,32 @@ void write_page(const CompareOptions& options, Session& session, const Json& doc
   write_text_file(folder / "compare.html", compare_page(document, charts, folder));
 }
 
-double largest_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
-  double scale = 0.0;
-  for (const ComparisonRow& row : comparison.rows)
-    scale = std::max(scale, heat_scale(row.maps.*map));
-  return scale;
+/// The end of a scale for all structures. Those far worse than the rest would leave the others in
+/// the dark: they run off it.
+double common_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
+  constexpr double kShown = 0.8;
+  std::vector<double> scales;
+  for (const ComparisonRow& row : comparison.rows) scales.push_back(heat_scale(row.maps.*map));
+  return quantile(scales, kShown);
 }
 
 /// Writes the heat maps of a scene and tells the rows of its results where they are.
 void write_maps(const CompareOptions& options, const SceneComparison& comparison,
-                const std::string& prefix, Json& rows) {
+                const std::string& prefix, Json& scene) {
   const ComparisonOptions& c = options.comparison;
   if (c.map_width == 0) return;
   const std::filesystem::path folder(options.output);
   std::filesystem::create_directories(folder / "maps");
-  const double steps = largest_scale(comparison, &WorkMaps::steps),
-               tests = largest_scale(comparison, &WorkMaps::tests);
+  const double steps = common_scale(comparison, &WorkMaps::steps),
+               tests = common_scale(comparison, &WorkMaps::tests);
+  scene["map_scales"] = {{"steps", steps}, {"tests", tests}, {"difference", tests}};
   const WorkMaps& first = comparison.rows.front().maps;
   for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
     const WorkMaps& maps = comparison.rows[i].maps;
     const auto write = [&](const char* kind, std::vector<float> rgb) {
       const std::string name = fmt::format("maps/{}_{}_{}.png", prefix, i, kind);
       write_png(folder / name, {c.map_width, c.map_height, std::move(rgb), {}, {}});
-      rows[i]["maps"][kind] = name;
+      scene["structures"][i]["maps"][kind] = name;
     };
     write("steps", heat_map(maps.steps, steps));
     write("tests", heat_map(maps.tests, tests));
@@ -153,7 +157,7 @@ Json compare_scene(const CompareOptions& options, Session& session, const std::s
     spec = session.chosen_spec(scene, spec, rays_of(wanted, view));
   const SceneComparison comparison = compare_structures(scene, view, wanted, session.context());
   Json json = to_json(comparison, *scene);
-  write_maps(options, comparison, part.stem().string(), json["structures"]);
+  write_maps(options, comparison, part.stem().string(), json);
   write_text_file(part, json.dump(2) + "\n");
   return json;
 }
@@ -209,7 +213,7 @@ void add_compare_command(CLI::App& app, Runner& run) {
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--budget", c.seconds_per_cell,
-                   "Seconds for all repeats of one structure on one workload")
+                   "Seconds for one structure on one workload, all repeats and warming up")
       ->check(CLI::Range(0.001, 1e6));
   command->add_option("--maps", options->maps, "Size of heat maps, or none (default: 256x192)")
       ->type_name("WxH");

@@ -178,7 +178,8 @@ class Comparison {
     trace(accelerator, trial, answers, quiet());
     const double per_ray =
         timer.seconds() / static_cast<double>(std::max<std::size_t>(trial.size(), 1));
-    const double count = options_.seconds_per_cell / options_.repeats / std::max(per_ray, 1e-9);
+    const double traces = 2.0 * options_.repeats;
+    const double count = options_.seconds_per_cell / traces / std::max(per_ray, 1e-9);
     const std::size_t least = std::min(options_.min_rays, workload.size());
     return std::max(least, static_cast<std::size_t>(std::min(count, 1e12)));
   }

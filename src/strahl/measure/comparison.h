@@ -25,7 +25,7 @@ struct ComparisonOptions {
   std::size_t rays = 100'000;     ///< per workload; of `whitted` the primary rays
   std::size_t min_rays = 10'000;  ///< that every structure is asked, however slow it is
   int repeats = 6;                ///< the fewest of which 95 % intervals exist
-  double seconds_per_cell = 2.0;  ///< that all repeats of one structure on one workload may take
+  double seconds_per_cell = 2.0;  ///< for one structure on one workload, all repeats and warming up
   std::uint64_t seed = 1;
   int map_width = 0, map_height = 0;  ///< of heat maps from the view; 0: none
   bool with_overlap = false;          ///< also Accelerator::end_point_overlap(), which is slow
