@@ -85,7 +85,7 @@ TEST(Thinned, LeavesOutInstancesOnlyWhereTheyAreTooMany) {
 }
 
 TEST(Advisor, PredictsEveryCandidateSoonestFirst) {
-  const Advice advice = advice_for(scene_of("balls:3"), 1e6);
+  const Advice advice = advice_for(scene_of("balls:2"), 1e6);
   ASSERT_GE(advice.predictions.size(), 6u);
   std::set<std::string> specs;
   for (const Prediction& p : advice.predictions) {
@@ -102,7 +102,7 @@ TEST(Advisor, PredictsEveryCandidateSoonestFirst) {
 }
 
 TEST(Advisor, WeighsBuildingAgainstRays) {
-  const auto scene = scene_of("terrain:20");
+  const auto scene = scene_of("terrain:10");
   AdviceOptions options;
   options.candidates = {"bvh", "brute_force"};
   options.rays = 0;
@@ -114,15 +114,37 @@ TEST(Advisor, WeighsBuildingAgainstRays) {
 }
 
 TEST(Advisor, ContinuesLargeScenesFromThinnedOnes) {
-  const auto scene = scene_of("soup:160000");
+  const auto scene = scene_of("soup:150000");
   AdviceOptions options;
   options.candidates = {"bvh:builder=lbvh", "wide_bvh"};
   const Advice advice = advise(scene, options);
-  EXPECT_LT(advice.trial_primitives, scene->size() / 2);
+  EXPECT_LE(advice.trial_primitives, scene->size() / 2);
   for (const Prediction& p : advice.predictions) {
     const auto bytes = static_cast<double>(build(scene, p.spec)->report().bytes);
     EXPECT_NEAR(p.bytes, bytes, 0.15 * bytes) << p.spec;
   }
+}
+
+TEST(Advisor, KnowsTheRestOfWhatIsNotWorthALargeTrial) {
+  const auto scene = scene_of("soup:80000");
+  AdviceOptions options;
+  options.candidates = {"bvh:builder=lbvh", "wide_bvh"};
+  options.rays = 100;
+  const Advice advice = advise(scene, options);
+  EXPECT_EQ(advice.fastest().spec, "bvh:builder=lbvh");
+  EXPECT_EQ(advice.trial_primitives, scene->size());
+  const auto bytes = static_cast<double>(build(scene, "wide_bvh")->report().bytes);
+  EXPECT_NEAR(advice.predictions[1].bytes, bytes, 0.15 * bytes);
+}
+
+TEST(Advisor, AdvisesForAnotherNumberOfRaysWithoutAnotherTrial) {
+  const auto scene = scene_of("terrain:10");
+  AdviceOptions options;
+  options.candidates = {"bvh", "brute_force"};
+  const Advice many = advise(scene, options), none = for_rays(many, 0);
+  EXPECT_EQ(many.fastest().spec, "bvh");
+  EXPECT_EQ(none.fastest().spec, "brute_force");
+  EXPECT_EQ(none.fastest().total_seconds, none.fastest().build_seconds);
 }
 
 TEST(Advisor, HandlesAnEmptySceneAndOnePrimitive) {
