@@ -29,6 +29,7 @@ struct CompareOptions : CommonOptions {
   std::vector<std::string> scenes;
   std::string structures = "all", workloads = "primary,shadow,ao,diffuse,random", output;
   std::string maps = "256x192";  ///< or "none"
+  std::size_t rays = 0;          ///< of every workload; 0: each its default
   ComparisonOptions comparison;
   CompareOptions() { threads = 1; }
 };
@@ -63,11 +64,17 @@ Json options_json(const CompareOptions& options) {
   const ComparisonOptions& c = options.comparison;
   Json workloads = Json::array();
   for (const WorkloadKind kind : c.workloads) workloads.push_back(name_of(kind));
-  return {{"structures", c.specs}, {"workloads", workloads},
-          {"rays", c.rays},        {"min_rays", c.min_rays},
-          {"repeats", c.repeats},  {"seconds_per_cell", c.seconds_per_cell},
-          {"seed", c.seed},        {"threads", options.threads},
-          {"maps", options.maps},  {"epo", c.with_overlap}};
+  return {{"structures", c.specs},
+          {"workloads", workloads},
+          {"rays", c.rays},
+          {"eye_rays", c.eye_rays},
+          {"min_rays", c.min_rays},
+          {"repeats", c.repeats},
+          {"seconds_per_cell", c.seconds_per_cell},
+          {"seed", c.seed},
+          {"threads", options.threads},
+          {"maps", options.maps},
+          {"epo", c.with_overlap}};
 }
 
 /// The file of a scene's results: named by everything they depend on but the machine.
@@ -169,6 +176,7 @@ int run_compare(CompareOptions& options) {
     const ImageSize size = parse_image_size(options.maps, "--maps");
     options.comparison.map_width = size.width, options.comparison.map_height = size.height;
   }
+  if (options.rays > 0) options.comparison.rays = options.comparison.eye_rays = options.rays;
   Session session(options);
   std::filesystem::create_directories(std::filesystem::path(options.output) / "parts");
   Json document = {{"options", options_json(options)}, {"scenes", Json::array()}};
@@ -205,7 +213,9 @@ void add_compare_command(CLI::App& app, Runner& run) {
   command->add_option("--workloads", options->workloads, "Sets of rays (default: all but whitted)")
       ->type_name("NAME,...");
   ComparisonOptions& c = options->comparison;
-  command->add_option("--rays", c.rays, "Rays per workload; whitted: primary rays")
+  command
+      ->add_option("--rays", options->rays,
+                   "Rays per workload, rays from the eye of whitted (default: 100000 and 263169)")
       ->check(CLI::Range(1, 100'000'000));
   command->add_option("--min-rays", c.min_rays, "Rays that the slowest structures are asked")
       ->check(CLI::Range(64, 100'000'000));

@@ -107,10 +107,13 @@ std::string structure_table(const Json& scene) {
 }
 
 std::string workload_table(const Json& scene, std::size_t w) {
+  const Json& of = scene["workloads"][w];
   std::string text = fmt::format(
-      "{} rays:\n\n| structure | rays | Mrays/s | quartiles | time | break-even | N_TS | N_ETS | "
+      "{}: {} rays for their first hit ({} hit), {} for any ({} hit); {} of them from the eye ({} "
+      "hit).\n\n| structure | rays | Mrays/s | quartiles | time | break-even | N_TS | N_ETS | "
       "N_EETS | N_IT | N_BIT |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-      scene["workloads"][w]["workload"].get<std::string>());
+      of["workload"].get<std::string>(), of["closest_rays"].dump(), of["closest_hits"].dump(),
+      of["any_rays"].dump(), of["any_hits"].dump(), of["eye_rays"].dump(), of["eye_hits"].dump());
   for (const Json& row : scene["structures"]) {
     const Json &cell = row["workloads"][w], &time = cell["time_to_first"];
     text +=
@@ -142,7 +145,9 @@ Json to_json(const SceneComparison& comparison, const Scene& scene) {
                          {"closest_rays", w.closest_rays},
                          {"closest_hits", w.closest_hits},
                          {"any_rays", w.any_rays},
-                         {"any_hits", w.any_hits}});
+                         {"any_hits", w.any_hits},
+                         {"eye_rays", w.eye_rays},
+                         {"eye_hits", w.eye_hits}});
   for (const ComparisonRow& row : comparison.rows)
     structures.push_back(row_json(row, comparison.rows.front(), scene.size()));
   return {{"scene", scene.data().source},

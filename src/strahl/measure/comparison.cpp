@@ -118,8 +118,10 @@ class Comparison {
   }
 
   void prepare(const View& view) {
-    const WorkloadOptions wanted{view, options_.rays, options_.seed};
     for (const WorkloadKind kind : options_.workloads) {
+      const bool is_tree = kind == WorkloadKind::whitted;
+      const WorkloadOptions wanted{view, is_tree ? options_.eye_rays : options_.rays,
+                                   options_.seed};
       Task task{make_workload(kind, *built_.front(), wanted, context_), {}, {}};
       trace(*built_.front(), select(task.workload, task.workload.size()), task.expected, quiet());
       summarize(task.workload, task.expected);
@@ -164,7 +166,12 @@ class Comparison {
 
   void summarize(const Workload& workload, const Answers& answers) {
     WorkloadSummary s{workload.kind, workload.closest.size(), 0, workload.any.size(), 0};
-    for (const Hit& hit : answers.hits) s.closest_hits += hit.is_hit();
+    s.eye_rays = workload.from_eye;
+    for (std::size_t i = 0; i < answers.hits.size(); ++i) {
+      const bool is_hit = answers.hits[i].is_hit();
+      s.closest_hits += is_hit;
+      s.eye_hits += is_hit && i < workload.from_eye;
+    }
     for (const std::uint8_t any : answers.any) s.any_hits += any;
     result_.workloads.push_back(s);
   }

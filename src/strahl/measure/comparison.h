@@ -22,7 +22,9 @@ namespace strahl {
 struct ComparisonOptions {
   std::vector<std::string> specs;
   std::vector<WorkloadKind> workloads;
-  std::size_t rays = 100'000;     ///< per workload; of `whitted` the primary rays
+  std::size_t rays = 100'000;  ///< per workload
+  std::size_t eye_rays =
+      513 * 513;                  ///< of `whitted`, which adds the rest of the tree; as published
   std::size_t min_rays = 10'000;  ///< that every structure is asked, however slow it is
   int repeats = 6;                ///< the fewest of which 95 % intervals exist
   double seconds_per_cell = 2.0;  ///< for one structure on one workload, all repeats and warming up
@@ -58,6 +60,7 @@ struct ComparisonRow {
 struct WorkloadSummary {
   WorkloadKind kind = WorkloadKind::primary;
   std::size_t closest_rays = 0, closest_hits = 0, any_rays = 0, any_hits = 0;
+  std::size_t eye_rays = 0, eye_hits = 0;  ///< of the closest, those that leave the eye
 };
 
 struct SceneComparison {

@@ -21,7 +21,7 @@ ComparisonOptions small_options() {
   ComparisonOptions options;
   options.specs = {"bvh", "kd_tree:split=median", "brute_force"};
   options.workloads = {WorkloadKind::random, WorkloadKind::shadow, WorkloadKind::whitted};
-  options.rays = 1000, options.min_rays = 200, options.repeats = 3;
+  options.rays = 1000, options.eye_rays = 900, options.min_rays = 200, options.repeats = 3;
   return options;
 }
 
@@ -58,6 +58,10 @@ TEST(Comparison, MeasuresEveryStructureOnEveryWorkload) {
   EXPECT_EQ(c.rows[1].spec, "kd_tree:split=median");
   EXPECT_EQ(c.workloads[0].closest_rays, 1000u);
   EXPECT_GT(c.workloads[2].any_rays, c.workloads[2].any_hits);
+  EXPECT_EQ(c.workloads[0].eye_rays, 0u);  // lines
+  EXPECT_EQ(c.workloads[2].eye_rays, 900u);
+  EXPECT_EQ(c.workloads[2].eye_hits, 900u);  // the ground is everywhere
+  EXPECT_LT(c.workloads[2].eye_hits, c.workloads[2].closest_hits);
   for (const ComparisonRow& row : c.rows) {
     EXPECT_EQ(row.build.references > 0 || row.spec == "brute_force", true);
     ASSERT_EQ(row.cells.size(), 3u);
