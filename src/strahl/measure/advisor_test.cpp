@@ -8,7 +8,10 @@
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/generators.h>
 #include <strahl/measure/advisor.h>
+#include <strahl/measure/comparison.h>
+#include <strahl/measure/statistics.h>
 #include <strahl/measure/thinned.h>
+#include <strahl/render/framing.h>
 
 namespace strahl {
 namespace {
@@ -145,6 +148,44 @@ TEST(Advisor, AdvisesForAnotherNumberOfRaysWithoutAnotherTrial) {
   EXPECT_EQ(many.fastest().spec, "bvh");
   EXPECT_EQ(none.fastest().spec, "brute_force");
   EXPECT_EQ(none.fastest().total_seconds, none.fastest().build_seconds);
+}
+
+/// The measured time of the advisor's choice over that of the best, at worst over some workloads
+/// and numbers of rays. Beside the candidates one that is never a good choice.
+double worst_loss(const std::shared_ptr<const Scene>& scene) {
+  AdviceOptions wanted;
+  std::erase(wanted.candidates, "brute_force");
+  std::erase(wanted.candidates, "two_level");
+  wanted.candidates.push_back("quadtree");
+  wanted.view = default_view(*scene, 64, 64);
+  ComparisonOptions options;
+  options.specs = wanted.candidates;
+  options.workloads = {WorkloadKind::primary, WorkloadKind::random};
+  options.rays = 4000, options.min_rays = 500, options.repeats = 3, options.seconds_per_cell = 0.02;
+  const SceneComparison measured = compare_structures(scene, wanted.view, options);
+  double worst = 1.0;
+  for (std::size_t w = 0; w < options.workloads.size(); ++w) {
+    wanted.workload = options.workloads[w];
+    const Advice trial = advise(scene, wanted);
+    for (const double rays : {1e3, 1e6}) {
+      const std::string chosen = for_rays(trial, rays).fastest().spec;
+      double best = 1e300, of_chosen = 0.0;
+      for (const ComparisonRow& row : measured.rows) {
+        const ComparisonCell& cell = row.cells[w];
+        const double total = row.build.seconds + rays * median(cell.seconds) / double(cell.rays);
+        best = std::min(best, total);
+        if (row.spec == chosen) of_chosen = total;
+      }
+      worst = std::max(worst, of_chosen / best);
+    }
+  }
+  return worst;
+}
+
+// bench/advisor_bench holds the whole: twenty scenes, six workloads, 1.10 on average, 1.5 at worst.
+TEST(Advisor, LosesLittleAgainstTheBest) {
+  for (const char* generator : {"balls:2", "terrain:20"})
+    EXPECT_LT(worst_loss(scene_of(generator)), 2.0) << generator;
 }
 
 TEST(Advisor, HandlesAnEmptySceneAndOnePrimitive) {
