@@ -18,6 +18,7 @@
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/atomic_file.h>
 #include <strahl/io/png.h>
+#include <strahl/measure/statistics.h>
 #include <strahl/render/framing.h>
 #include <strahl/render/heat_map.h>
 
@@ -28,6 +29,7 @@ struct CompareOptions : CommonOptions {
   std::vector<std::string> scenes;
   std::string structures = "all", workloads = "primary,shadow,ao,diffuse,random", output;
   std::string maps = "256x192";  ///< or "none"
+  std::size_t rays = 0;          ///< of every workload; 0: each its default
   ComparisonOptions comparison;
   CompareOptions() { threads = 1; }
 };
@@ -62,11 +64,17 @@ Json options_json(const CompareOptions& options) {
   const ComparisonOptions& c = options.comparison;
   Json workloads = Json::array();
   for (const WorkloadKind kind : c.workloads) workloads.push_back(name_of(kind));
-  return {{"structures", c.specs}, {"workloads", workloads},
-          {"rays", c.rays},        {"min_rays", c.min_rays},
-          {"repeats", c.repeats},  {"seconds_per_cell", c.seconds_per_cell},
-          {"seed", c.seed},        {"threads", options.threads},
-          {"maps", options.maps},  {"epo", c.with_overlap}};
+  return {{"structures", c.specs},
+          {"workloads", workloads},
+          {"rays", c.rays},
+          {"eye_rays", c.eye_rays},
+          {"min_rays", c.min_rays},
+          {"repeats", c.repeats},
+          {"seconds_per_cell", c.seconds_per_cell},
+          {"seed", c.seed},
+          {"threads", options.threads},
+          {"maps", options.maps},
+          {"epo", c.with_overlap}};
 }
 
 /// The file of a scene's results: named by everything they depend on but the machine.
@@ -104,29 +112,32 @@ void write_page(const CompareOptions& options, Session& session, const Json& doc
   write_text_file(folder / "compare.html", compare_page(document, charts, folder));
 }
 
-double largest_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
-  double scale = 0.0;
-  for (const ComparisonRow& row : comparison.rows)
-    scale = std::max(scale, heat_scale(row.maps.*map));
-  return scale;
+/// The end of a scale for all structures. Those far worse than the rest would leave the others in
+/// the dark: they run off it.
+double common_scale(const SceneComparison& comparison, std::vector<float> WorkMaps::*map) {
+  constexpr double kShown = 0.8;
+  std::vector<double> scales;
+  for (const ComparisonRow& row : comparison.rows) scales.push_back(heat_scale(row.maps.*map));
+  return quantile(scales, kShown);
 }
 
 /// Writes the heat maps of a scene and tells the rows of its results where they are.
 void write_maps(const CompareOptions& options, const SceneComparison& comparison,
-                const std::string& prefix, Json& rows) {
+                const std::string& prefix, Json& scene) {
   const ComparisonOptions& c = options.comparison;
   if (c.map_width == 0) return;
   const std::filesystem::path folder(options.output);
   std::filesystem::create_directories(folder / "maps");
-  const double steps = largest_scale(comparison, &WorkMaps::steps),
-               tests = largest_scale(comparison, &WorkMaps::tests);
+  const double steps = common_scale(comparison, &WorkMaps::steps),
+               tests = common_scale(comparison, &WorkMaps::tests);
+  scene["map_scales"] = {{"steps", steps}, {"tests", tests}, {"difference", tests}};
   const WorkMaps& first = comparison.rows.front().maps;
   for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
     const WorkMaps& maps = comparison.rows[i].maps;
     const auto write = [&](const char* kind, std::vector<float> rgb) {
       const std::string name = fmt::format("maps/{}_{}_{}.png", prefix, i, kind);
       write_png(folder / name, {c.map_width, c.map_height, std::move(rgb), {}, {}});
-      rows[i]["maps"][kind] = name;
+      scene["structures"][i]["maps"][kind] = name;
     };
     write("steps", heat_map(maps.steps, steps));
     write("tests", heat_map(maps.tests, tests));
@@ -153,7 +164,7 @@ Json compare_scene(const CompareOptions& options, Session& session, const std::s
     spec = session.chosen_spec(scene, spec, rays_of(wanted, view));
   const SceneComparison comparison = compare_structures(scene, view, wanted, session.context());
   Json json = to_json(comparison, *scene);
-  write_maps(options, comparison, part.stem().string(), json["structures"]);
+  write_maps(options, comparison, part.stem().string(), json);
   write_text_file(part, json.dump(2) + "\n");
   return json;
 }
@@ -165,6 +176,7 @@ int run_compare(CompareOptions& options) {
     const ImageSize size = parse_image_size(options.maps, "--maps");
     options.comparison.map_width = size.width, options.comparison.map_height = size.height;
   }
+  if (options.rays > 0) options.comparison.rays = options.comparison.eye_rays = options.rays;
   Session session(options);
   std::filesystem::create_directories(std::filesystem::path(options.output) / "parts");
   Json document = {{"options", options_json(options)}, {"scenes", Json::array()}};
@@ -201,7 +213,9 @@ void add_compare_command(CLI::App& app, Runner& run) {
   command->add_option("--workloads", options->workloads, "Sets of rays (default: all but whitted)")
       ->type_name("NAME,...");
   ComparisonOptions& c = options->comparison;
-  command->add_option("--rays", c.rays, "Rays per workload; whitted: primary rays")
+  command
+      ->add_option("--rays", options->rays,
+                   "Rays per workload, rays from the eye of whitted (default: 100000 and 263169)")
       ->check(CLI::Range(1, 100'000'000));
   command->add_option("--min-rays", c.min_rays, "Rays that the slowest structures are asked")
       ->check(CLI::Range(64, 100'000'000));
@@ -209,7 +223,7 @@ void add_compare_command(CLI::App& app, Runner& run) {
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--budget", c.seconds_per_cell,
-                   "Seconds for all repeats of one structure on one workload")
+                   "Seconds for one structure on one workload, all repeats and warming up")
       ->check(CLI::Range(0.001, 1e6));
   command->add_option("--maps", options->maps, "Size of heat maps, or none (default: 256x192)")
       ->type_name("WxH");

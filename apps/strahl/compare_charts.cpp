@@ -52,15 +52,13 @@ std::string label(const Json& row, std::size_t i) {
   return quoted(fmt::format("{}.. [{}]", spec.substr(0, kLongest - 6), i + 1));
 }
 
-enum class Marks { lines, points, both };
+enum class Marks { lines, points };
 
 /// "plot" of data blocks $d0, $d1, ... titled by structure.
 std::string plot_blocks(const Json& rows, Marks marks) {
   std::string text = "plot ";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string with = marks == Marks::lines    ? "lines " + line(i)
-                             : marks == Marks::points ? "points " + point(i)
-                                                      : "linespoints lw 1.6 " + point(i);
+    const std::string with = marks == Marks::lines ? "lines " + line(i) : "points " + point(i);
     text += fmt::format("{}$d{} using 1:2 with {} title {}", i > 0 ? ", " : "", i, with,
                         label(rows[i], i));
   }
@@ -79,27 +77,26 @@ std::string log_range(const char* axis, const std::vector<double>& values) {
   return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, *least / 2, *most * 2);
 }
 
-std::string size_range(const Json& scenes) {
-  std::vector<double> sizes;
-  for (const Json& scene : scenes)
-    sizes.push_back(std::max(scene["primitives"].get<double>(), 1.0));
-  return log_range("x", sizes);
-}
-
+/// Scenes are no series: points, the more of a structure in a line the better it scales.
 Chart size_chart(const Json& scenes, std::size_t w, const std::string& workload) {
   const std::string name = "size_" + workload, title = "Time per ray over scene size: " + workload;
-  std::string script = head(name, title, "primitives", "nanoseconds per ray") + size_range(scenes) +
-                       "set logscale xy\n";
   const Json& rows = scenes[0]["structures"];
+  std::vector<double> sizes, times;
+  std::string blocks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<std::pair<double, double>> points;
-    for (const Json& scene : scenes)
-      points.emplace_back(scene["primitives"].get<double>(),
-                          1e3 / scene["structures"][i]["workloads"][w]["mrays"].get<double>());
+    for (const Json& scene : scenes) {
+      sizes.push_back(std::max(scene["primitives"].get<double>(), 1.0));
+      times.push_back(1e3 / scene["structures"][i]["workloads"][w]["mrays"].get<double>());
+      points.emplace_back(sizes.back(), times.back());
+    }
     std::sort(points.begin(), points.end());
-    script += block(i, points);
+    blocks += block(i, points);
   }
-  return {name, title, script + plot_blocks(rows, Marks::both)};
+  return {name, title,
+          head(name, title, "primitives", "nanoseconds per ray") + log_range("x", sizes) +
+              log_range("y", times) + "set logscale xy\nset format xy '%.0s%c'\n" + blocks +
+              plot_blocks(rows, Marks::points)};
 }
 
 /// Bars of mean ranks; those whose whisker, half the critical difference to each side, overlap

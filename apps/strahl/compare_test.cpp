@@ -31,6 +31,10 @@ TEST_F(CompareCommand, WritesTheSameResultsAsJsonCsvAndMarkdown) {
     EXPECT_EQ(scene["structures"].size(), 3u);
     for (const auto& row : scene["structures"]) {
       EXPECT_GT(row["build"]["bytes"], 0);
+      EXPECT_EQ(row["build"]["seconds_of_repeats"].size(), 2u);
+      EXPECT_EQ(row["statistics"]["N_IN"].get<int>() + row["statistics"]["N_V"].get<int>(),
+                row["build"]["nodes"]);
+      EXPECT_EQ(row["statistics"]["N_OIV"], row["build"]["references"]);
       ASSERT_EQ(row["workloads"].size(), 2u);
       for (const auto& cell : row["workloads"]) {
         EXPECT_GT(cell["mrays"], 0.0);
@@ -43,7 +47,13 @@ TEST_F(CompareCommand, WritesTheSameResultsAsJsonCsvAndMarkdown) {
   const std::string csv = folder_.read("out/compare.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 3 * 2);
   EXPECT_NE(csv.find("\"kd_tree:split=median,axis=round_robin\",random"), std::string::npos);
-  EXPECT_NE(folder_.read("out/compare.md").find("## gen:tetra:3"), std::string::npos);
+  const std::string markdown = folder_.read("out/compare.md");
+  EXPECT_NE(markdown.find("## gen:tetra:3"), std::string::npos);
+  for (const char* name :
+       {"N_TS", "N_ETS", "N_EETS", "N_IT", "N_BIT", "N_IN", "N_V", "N_EV", "N_OIV", "SAH", "EPO"}) {
+    EXPECT_NE(csv.find(std::string(",") + name), std::string::npos) << name;
+    EXPECT_NE(markdown.find(std::string("| ") + name + " |"), std::string::npos) << name;
+  }
 }
 
 TEST_F(CompareCommand, RanksStructuresOverScenes) {
@@ -93,7 +103,7 @@ TEST_F(CompareCommand, TellsTheOverlapOfTreesOfVolumesWhenAsked) {
   EXPECT_GT(asked["scenes"][0]["structures"][0]["build"]["epo"], 0.0);
   EXPECT_TRUE(asked["scenes"][0]["structures"][2]["build"]["epo"].is_null());
   EXPECT_NE(folder_.read("out/compare.md").find("| SAH | EPO |"), std::string::npos);
-  EXPECT_NE(folder_.read("out/compare.csv").find(",sah_cost,epo,"), std::string::npos);
+  EXPECT_NE(folder_.read("out/compare.csv").find(",SAH,EPO,"), std::string::npos);
 }
 
 TEST_F(CompareCommand, GoesOnWhereItWasUnlessSomethingElseIsAsked) {

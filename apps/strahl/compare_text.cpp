@@ -22,6 +22,17 @@ Json per_ray(const Counters& counters, std::size_t rays) {
           {"N_BIT", mean(counters.bounding_volumes)}};
 }
 
+/// What a structure consists of, by the names of docs/glossary.md.
+Json statistics(const ComparisonRow& row) {
+  const BuildReport& build = row.build;
+  return {{"N_IN", build.nodes - std::min(build.leaves, build.nodes)},
+          {"N_V", build.leaves},
+          {"N_EV", build.empty_leaves},
+          {"N_OIV", build.references},
+          {"SAH", build.sah_cost},
+          {"EPO", to_json(row.overlap)}};
+}
+
 /// Million rays per second at a quantile of the seconds.
 double mrays(const ComparisonCell& cell, double p) {
   return cell.seconds.empty() ? 0.0
@@ -68,7 +79,9 @@ Json row_json(const ComparisonRow& row, const ComparisonRow& first, std::uint32_
   build["bytes_per_primitive"] =
       static_cast<double>(row.build.bytes) / std::max<std::uint32_t>(primitives, 1);
   build["epo"] = to_json(row.overlap);
-  return {{"spec", row.spec}, {"build", build}, {"workloads", cells}};
+  build["seconds_of_repeats"] = row.build_seconds;
+  return {
+      {"spec", row.spec}, {"build", build}, {"statistics", statistics(row)}, {"workloads", cells}};
 }
 
 /// "0.123" or, above 100, without decimals; "-" for what there is not.
@@ -78,31 +91,49 @@ std::string number(const Json& value) {
   return v >= 100.0 ? fmt::format("{:.0f}", v) : fmt::format("{:.3g}", v);
 }
 
-std::string scene_table(const Json& scene) {
-  std::string text = fmt::format("## {}\n\n{} primitives\n\n", scene["scene"].get<std::string>(),
-                                 scene["primitives"].dump());
-  std::string head = "| structure | build s | B/primitive | SAH | EPO |",
-              rule = "|---|---|---|---|---|";
-  for (const Json& workload : scene["workloads"]) {
-    const auto name = workload["workload"].get<std::string>();
-    head += fmt::format(" {0} Mrays/s | time | N_TS | N_ETS | N_IT |", name);
-    rule += "---|---|---|---|---|";
-  }
-  text += head + "\n" + rule + "\n";
+std::string structure_table(const Json& scene) {
+  std::string text =
+      "| structure | build s | B/primitive | N_IN | N_V | N_EV | N_OIV | SAH | EPO |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const Json& row : scene["structures"]) {
-    const Json& build = row["build"];
-    text += fmt::format("| `{}` | {} | {} | {} | {} |", row["spec"].get<std::string>(),
-                        number(build["seconds"]), number(build["bytes_per_primitive"]),
-                        number(build["sah_cost"]), number(build["epo"]));
-    for (const Json& cell : row["workloads"]) {
-      const Json &time = cell["time_to_first"], &counts = cell["per_ray"];
-      text += fmt::format(" {} | {} ({} to {}) | {} | {} | {} |", number(cell["mrays"]),
-                          number(time[0]), number(time[1]), number(time[2]), number(counts["N_TS"]),
-                          number(counts["N_ETS"]), number(counts["N_IT"]));
-    }
+    text +=
+        fmt::format("| `{}` | {} | {} |", row["spec"].get<std::string>(),
+                    number(row["build"]["seconds"]), number(row["build"]["bytes_per_primitive"]));
+    for (const char* name : {"N_IN", "N_V", "N_EV", "N_OIV", "SAH", "EPO"})
+      text += fmt::format(" {} |", number(row["statistics"][name]));
     text += "\n";
   }
   return text + "\n";
+}
+
+std::string workload_table(const Json& scene, std::size_t w) {
+  const Json& of = scene["workloads"][w];
+  std::string text = fmt::format(
+      "{}: {} rays for their first hit ({} hit), {} for any ({} hit); {} of them from the eye ({} "
+      "hit).\n\n| structure | rays | Mrays/s | quartiles | time | break-even | N_TS | N_ETS | "
+      "N_EETS | N_IT | N_BIT |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+      of["workload"].get<std::string>(), of["closest_rays"].dump(), of["closest_hits"].dump(),
+      of["any_rays"].dump(), of["any_hits"].dump(), of["eye_rays"].dump(), of["eye_hits"].dump());
+  for (const Json& row : scene["structures"]) {
+    const Json &cell = row["workloads"][w], &time = cell["time_to_first"];
+    text +=
+        fmt::format("| `{}` | {} | {} | {} to {} | {} ({} to {}) | {} |",
+                    row["spec"].get<std::string>(), cell["rays"].dump(), number(cell["mrays"]),
+                    number(cell["mrays_quartiles"][1]), number(cell["mrays_quartiles"][0]),
+                    number(time[0]), number(time[1]), number(time[2]), number(cell["break_even"]));
+    for (const char* name : {"N_TS", "N_ETS", "N_EETS", "N_IT", "N_BIT"})
+      text += fmt::format(" {} |", number(cell["per_ray"][name]));
+    text += "\n";
+  }
+  return text + "\n";
+}
+
+std::string scene_text(const Json& scene) {
+  std::string text = fmt::format("## {}\n\n{} primitives\n\n", scene["scene"].get<std::string>(),
+                                 scene["primitives"].dump()) +
+                     structure_table(scene);
+  for (std::size_t w = 0; w < scene["workloads"].size(); ++w) text += workload_table(scene, w);
+  return text;
 }
 
 }  // namespace
@@ -114,7 +145,9 @@ Json to_json(const SceneComparison& comparison, const Scene& scene) {
                          {"closest_rays", w.closest_rays},
                          {"closest_hits", w.closest_hits},
                          {"any_rays", w.any_rays},
-                         {"any_hits", w.any_hits}});
+                         {"any_hits", w.any_hits},
+                         {"eye_rays", w.eye_rays},
+                         {"eye_hits", w.eye_hits}});
   for (const ComparisonRow& row : comparison.rows)
     structures.push_back(row_json(row, comparison.rows.front(), scene.size()));
   return {{"scene", scene.data().source},
@@ -126,21 +159,23 @@ Json to_json(const SceneComparison& comparison, const Scene& scene) {
 
 std::string compare_csv(const Json& document) {
   std::string text =
-      "scene,structure,workload,build_seconds,bytes,nodes,leaves,empty_leaves,references,sah_cost,"
-      "epo,rays,mrays,time_to_first,time_low,time_high,N_TS,N_ETS,N_EETS,N_IT,N_BIT\n";
+      "scene,structure,workload,build_seconds,bytes,N_IN,N_V,N_EV,N_OIV,SAH,EPO,rays,mrays,"
+      "time_to_first,time_low,time_high,N_TS,N_ETS,N_EETS,N_IT,N_BIT\n";
   for (const Json& scene : document["scenes"])
     for (const Json& row : scene["structures"])
       for (const Json& cell : row["workloads"]) {
         // A SPEC may hold commas.
         text += fmt::format("\"{}\",\"{}\",{}", scene["scene"].get<std::string>(),
                             row["spec"].get<std::string>(), cell["workload"].get<std::string>());
-        for (const char* key :
-             {"seconds", "bytes", "nodes", "leaves", "empty_leaves", "references", "sah_cost"})
-          text += "," + row["build"][key].dump();
-        text += "," + (row["build"]["epo"].is_null() ? "" : row["build"]["epo"].dump());
+        text += "," + row["build"]["seconds"].dump() + "," + row["build"]["bytes"].dump();
+        for (const char* key : {"N_IN", "N_V", "N_EV", "N_OIV", "SAH", "EPO"}) {
+          const Json& value = row["statistics"][key];
+          text += "," + (value.is_null() ? "" : value.dump());
+        }
         text += "," + cell["rays"].dump() + "," + cell["mrays"].dump();
         for (const Json& value : cell["time_to_first"]) text += "," + value.dump();
-        for (const Json& value : cell["per_ray"]) text += "," + value.dump();
+        for (const char* key : {"N_TS", "N_ETS", "N_EETS", "N_IT", "N_BIT"})
+          text += "," + cell["per_ray"][key].dump();
         text += "\n";
       }
   return text;
@@ -153,12 +188,17 @@ std::string compare_markdown(const Json& document) {
     return std::string("the first structure");
   };
   std::string text = fmt::format(
-      "# Comparison\n\nTime: of a ray, relative to `{}`, with the 95 % interval over repeats. "
-      "Steps (N_TS), leaves or cells (N_ETS) and primitive tests (N_IT) are per ray. SAH: "
-      "expected cost of a random line in steps; EPO: end-point overlap, with --epo.\n\n",
+      "# Comparison\n\nTime: of a ray, relative to `{}`, with the 95 % interval over repeats, each "
+      "with structures built anew. Break-even: rays after which building and tracing took less "
+      "than "
+      "with that structure. Per ray: steps N_TS, leaves or cells N_ETS, empty ones N_EETS, "
+      "primitive "
+      "tests N_IT, box tests N_BIT. Of the structure: inner nodes N_IN, leaves or cells N_V, empty "
+      "ones N_EV, references N_OIV; SAH: expected cost of a random line in steps; EPO: end-point "
+      "overlap, with --epo.\n\n",
       first());
   text += summary_markdown(document["summary"]);
-  for (const Json& scene : document["scenes"]) text += scene_table(scene);
+  for (const Json& scene : document["scenes"]) text += scene_text(scene);
   return text;
 }
 

@@ -1,10 +1,12 @@
 // measure/advisor.h - which structure answers a number of rays soonest, found out by a trial.
 //
-// Each candidate is built over the scene and asked rays of the kind that is to come. A large scene
-// is thinned first, to two sizes: the growth of build time, time per ray and memory between them
+// Each candidate is built over the scene and asked rays of the kind that is to come, in blocks out
+// of a larger set, with warm caches. A large scene is thinned for a first trial, in which those
+// drop out whose build alone would take longer than others take for everything. A very large one is
+// thinned for the second trial, too: the growth of build time, time per ray and memory between both
 // is continued up to the whole scene as a power of the number of primitives. Nothing is fitted
-// beforehand but the list of candidates and how wrong such a continuation is on average, so that
-// advice holds for the machine it is given on. A trial takes about a second.
+// beforehand but the list of candidates, within what such powers are, and how wrong a continuation
+// is on average, so that advice holds for the machine it is given on. A trial takes about a second.
 // Thread safety: one trial at a time per process, or times mean nothing.
 #pragma once
 
@@ -39,6 +41,7 @@ struct Prediction {
 struct Advice {
   std::vector<Prediction> predictions;  ///< soonest first
   double confidence = 0.0;              ///< chance that the first is the soonest of them
+  double deviation = 0.0;               ///< standard, expected of ln(predicted / real)
   std::uint32_t trial_primitives = 0;   ///< of the largest scene tried
   double trial_seconds = 0.0;           ///< that the trial took
 
@@ -50,5 +53,8 @@ struct Advice {
 /// Throws Error: usage for no candidate, a bad SPEC or fewer than 0 rays; resource, cancelled.
 Advice advise(const std::shared_ptr<const Scene>& scene, const AdviceOptions& options,
               const BuildContext& context = {});
+
+/// What the same trial advises for another number of rays of that kind.
+Advice for_rays(Advice advice, double rays);
 
 }  // namespace strahl

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include <strahl/base/error.h>
 #include <strahl/catalog/catalog.h>
 #include <strahl/measure/comparison.h>
+#include <strahl/measure/statistics.h>
 #include <strahl/measure/stopwatch.h>
 #include <strahl/render/render.h>
 
@@ -39,8 +41,8 @@ Selection select(const Workload& workload, std::size_t count) {
                            ? 1.0
                            : static_cast<double>(count) / static_cast<double>(workload.size());
   const auto part = [&](const std::vector<Ray>& rays) {
-    return spread_blocks(rays.size(),
-                         static_cast<std::size_t>(share * static_cast<double>(rays.size())));
+    const double some = std::ceil(share * static_cast<double>(rays.size()));
+    return spread_blocks(rays.size(), static_cast<std::size_t>(some));
   };
   Selection s{part(workload.closest), part(workload.any), {}, {}};
   s.closest = picked(workload.closest, s.closest_at);
@@ -62,58 +64,93 @@ bool have_same_bits(const Hit& a, const Hit& b) {
          a.is_front == b.is_front;
 }
 
+/// One workload with the answers to all its rays.
+struct Task {
+  Workload workload;
+  Answers expected;
+  std::vector<std::size_t> affordable;  ///< number of rays for each structure
+};
+
 /// One scene under comparison.
 class Comparison {
  public:
   Comparison(const std::shared_ptr<const Scene>& scene, const ComparisonOptions& options,
              const BuildContext& context)
-      : options_(options), context_(context) {
+      : scene_(scene), options_(options), context_(context) {
     if (options.specs.empty()) throw Error(ErrorCode::usage, "no structure to compare", "compare");
-    for (const std::string& spec : options.specs) {
-      const Stopwatch watch(context.executor);
-      built_.push_back(build(scene, spec, context));
-      build_seconds_.push_back(watch.seconds());
-      result_.rows.push_back({built_.back()->spec(), {}, {}, {}, {}});
-    }
+    result_.rows.resize(options.specs.size());
   }
 
   SceneComparison run(const View& view) {
-    for (std::size_t w = 0; w < options_.workloads.size(); ++w) {
-      const WorkloadOptions wanted{view, options_.rays, options_.seed};
-      const Workload workload =
-          make_workload(options_.workloads[w], *built_.front(), wanted, context_);
-      measure(workload, static_cast<double>(w) / static_cast<double>(options_.workloads.size()));
+    for (round_ = 0; round_ < options_.repeats; ++round_) {
+      build_all();
+      if (round_ == 0) prepare(view);
+      for (std::size_t w = 0; w < tasks_.size(); ++w) time_all(w);
     }
     if (options_.map_width > 0)
       for (std::size_t i = 0; i < built_.size(); ++i) result_.rows[i].maps = draw(*built_[i], view);
     // Some build on while rays are traced.
     for (std::size_t i = 0; i < built_.size(); ++i) {
-      result_.rows[i].build = built_[i]->report();
-      result_.rows[i].build.seconds = build_seconds_[i];
-      if (options_.with_overlap) result_.rows[i].overlap = built_[i]->end_point_overlap(context_);
+      ComparisonRow& row = result_.rows[i];
+      row.build = built_[i]->report();
+      row.build.seconds = median(row.build_seconds);
+      if (options_.with_overlap) row.overlap = built_[i]->end_point_overlap(context_);
     }
     return std::move(result_);
   }
 
  private:
-  void measure(const Workload& workload, double done) {
-    const Selection whole = select(workload, workload.size());
-    Answers expected;
-    trace(*built_.front(), whole, expected, quiet());
-    summarize(workload, expected);
-    std::vector<Selection> selections;
-    for (std::size_t i = 0; i < built_.size(); ++i) {
-      context_.check(done, std::string("counting, ") + name_of(workload.kind));
-      selections.push_back(select(workload, affordable(*built_[i], workload)));
-      count(i, workload.kind, selections.back(), expected);
-    }
-    for (int round = 0; round < options_.repeats; ++round)
-      for (std::size_t k = 0; k < built_.size(); ++k) {
-        const std::size_t i = (k + static_cast<std::size_t>(round)) % built_.size();
-        context_.check(done, std::string("timing, ") + name_of(workload.kind));
-        time(i, selections[i], expected);
-      }
+  /// The k-th structure of this round.
+  std::size_t in_turn(std::size_t k) const {
+    return (k + static_cast<std::size_t>(round_)) % options_.specs.size();
   }
+
+  /// All are given up before the first is built again, or each would find its old place.
+  void build_all() {
+    built_.clear(), built_.resize(options_.specs.size());
+    for (std::size_t k = 0; k < built_.size(); ++k) {
+      const std::size_t i = in_turn(k);
+      const Stopwatch watch(context_.executor);
+      built_[i] = build(scene_, options_.specs[i], context_);
+      result_.rows[i].build_seconds.push_back(watch.seconds());
+      result_.rows[i].spec = built_[i]->spec();
+    }
+  }
+
+  void prepare(const View& view) {
+    for (const WorkloadKind kind : options_.workloads) {
+      const bool is_tree = kind == WorkloadKind::whitted;
+      const WorkloadOptions wanted{view, is_tree ? options_.eye_rays : options_.rays,
+                                   options_.seed};
+      Task task{make_workload(kind, *built_.front(), wanted, context_), {}, {}};
+      trace(*built_.front(), select(task.workload, task.workload.size()), task.expected, quiet());
+      summarize(task.workload, task.expected);
+      for (std::size_t i = 0; i < built_.size(); ++i) {
+        context_.check(done(), std::string("counting, ") + name_of(kind));
+        task.affordable.push_back(affordable(*built_[i], task.workload));
+        count(i, task);
+      }
+      tasks_.push_back(std::move(task));
+    }
+  }
+
+  /// Each structure is asked once before, for what it makes at the first rays and for the caches.
+  void time_all(std::size_t w) {
+    const Task& task = tasks_[w];
+    for (std::size_t k = 0; k < built_.size(); ++k) {
+      const std::size_t i = in_turn(k);
+      context_.check(done(), std::string("timing, ") + name_of(task.workload.kind));
+      const Selection rays = select(task.workload, task.affordable[i]);
+      Answers answers;
+      trace(*built_[i], rays, answers, quiet());
+      const Stopwatch timer(context_.executor);
+      trace(*built_[i], rays, answers, quiet());
+      result_.rows[i].cells[w].seconds.push_back(timer.seconds());
+      require_equal(i, task, rays, answers);
+    }
+  }
+
+  double done() const { return static_cast<double>(round_) / options_.repeats; }
 
   WorkMaps draw(const Accelerator& accelerator, const View& view) const {
     RenderOptions options;
@@ -129,7 +166,12 @@ class Comparison {
 
   void summarize(const Workload& workload, const Answers& answers) {
     WorkloadSummary s{workload.kind, workload.closest.size(), 0, workload.any.size(), 0};
-    for (const Hit& hit : answers.hits) s.closest_hits += hit.is_hit();
+    s.eye_rays = workload.from_eye;
+    for (std::size_t i = 0; i < answers.hits.size(); ++i) {
+      const bool is_hit = answers.hits[i].is_hit();
+      s.closest_hits += is_hit;
+      s.eye_hits += is_hit && i < workload.from_eye;
+    }
     for (const std::uint8_t any : answers.any) s.any_hits += any;
     result_.workloads.push_back(s);
   }
@@ -143,40 +185,36 @@ class Comparison {
     trace(accelerator, trial, answers, quiet());
     const double per_ray =
         timer.seconds() / static_cast<double>(std::max<std::size_t>(trial.size(), 1));
-    const double count = options_.seconds_per_cell / options_.repeats / std::max(per_ray, 1e-9);
+    const double traces = 2.0 * options_.repeats;
+    const double count = options_.seconds_per_cell / traces / std::max(per_ray, 1e-9);
     const std::size_t least = std::min(options_.min_rays, workload.size());
     return std::max(least, static_cast<std::size_t>(std::min(count, 1e12)));
   }
 
-  void count(std::size_t i, WorkloadKind kind, const Selection& rays, const Answers& expected) {
+  void count(std::size_t i, const Task& task) {
     BatchContext counting = quiet();
     counting.count_work = true;
+    const Selection rays = select(task.workload, task.affordable[i]);
     Answers answers;
     const Counters counters = trace(*built_[i], rays, answers, counting);
-    result_.rows[i].cells.push_back({kind, rays.size(), {}, counters});
-    require_equal(i, rays, answers, expected);
+    result_.rows[i].cells.push_back({task.workload.kind, rays.size(), {}, counters});
+    require_equal(i, task, rays, answers);
   }
 
-  void time(std::size_t i, const Selection& rays, const Answers& expected) {
-    Answers answers;
-    const Stopwatch timer(context_.executor);
-    trace(*built_[i], rays, answers, quiet());
-    result_.rows[i].cells.back().seconds.push_back(timer.seconds());
-    require_equal(i, rays, answers, expected);
-  }
-
-  void require_equal(std::size_t i, const Selection& rays, const Answers& got,
-                     const Answers& expected) const {
+  void require_equal(std::size_t i, const Task& task, const Selection& rays,
+                     const Answers& got) const {
     for (std::size_t k = 0; k < got.hits.size(); ++k)
-      if (!have_same_bits(got.hits[k], expected.hits[rays.closest_at[k]]))
-        refuse(i, "closest hit", rays.closest_at[k]);
+      if (!have_same_bits(got.hits[k], task.expected.hits[rays.closest_at[k]]))
+        refuse(i, task, "closest hit", rays.closest_at[k]);
     for (std::size_t k = 0; k < got.any.size(); ++k)
-      if (got.any[k] != expected.any[rays.any_at[k]]) refuse(i, "any hit", rays.any_at[k]);
+      if (got.any[k] != task.expected.any[rays.any_at[k]])
+        refuse(i, task, "any hit", rays.any_at[k]);
   }
-  [[noreturn]] void refuse(std::size_t i, const char* what, std::size_t ray) const {
+  [[noreturn]] void refuse(std::size_t i, const Task& task, const char* what,
+                           std::size_t ray) const {
     throw std::logic_error(built_[i]->spec() + " and " + built_.front()->spec() +
                            " differ: " + what + " of ray " + std::to_string(ray) + " of workload " +
-                           name_of(result_.workloads.back().kind));
+                           name_of(task.workload.kind));
   }
 
   /// No progress from within what is timed.
@@ -186,10 +224,12 @@ class Comparison {
     return batch;
   }
 
+  const std::shared_ptr<const Scene>& scene_;
   const ComparisonOptions& options_;
   const BuildContext& context_;
+  int round_ = 0;
   std::vector<std::unique_ptr<Accelerator>> built_;
-  std::vector<double> build_seconds_;
+  std::vector<Task> tasks_;
   SceneComparison result_;
 };
 
@@ -198,7 +238,7 @@ class Comparison {
 std::vector<std::size_t> spread_blocks(std::size_t rays, std::size_t count) {
   const std::size_t blocks = (rays + kBlock - 1) / kBlock;
   const std::size_t wanted =
-      count >= rays ? blocks : std::clamp<std::size_t>(count / kBlock, 1, blocks);
+      count >= rays ? blocks : std::clamp<std::size_t>((count + kBlock - 1) / kBlock, 1, blocks);
   std::vector<std::size_t> at;
   for (std::size_t b = 0; b < wanted; ++b) {
     const std::size_t first = b * blocks / wanted * kBlock;

@@ -63,7 +63,7 @@ void add_offspring(const TreeHit& hit, std::vector<Ray>& out) {
 Workload make_ray_tree(const Accelerator& accelerator, std::vector<Ray> eye_rays,
                        const BuildContext& context) {
   const Scene& scene = accelerator.scene();
-  Workload tree{WorkloadKind::whitted, {}, {}};
+  Workload tree{WorkloadKind::whitted, {}, {}, eye_rays.size()};
   std::vector<Ray> level = std::move(eye_rays);
   for (int depth = 1; !level.empty(); ++depth) {
     std::vector<Hit> hits(level.size());

@@ -20,12 +20,13 @@ struct Estimate {
   double value, low, high;
 };
 
-/// The median of the ratios a[i] / b[i] of paired measurements, its interval by the percentile
-/// bootstrap [Efron1979], 2,000 resamples, reproducible. As many of a as of b, at least one.
+/// The median of the ratios a[i] / b[i] of paired measurements. Its interval is between two of
+/// them, whatever their distribution [Thompson1936]; of fewer than six the least to the greatest,
+/// which of five hold the truth in 94 of 100 experiments. As many of a as of b, at least one.
 Estimate median_ratio(std::span<const double> a, std::span<const double> b);
 
-/// The geometric mean of ratios of independent scenes, its interval by the same bootstrap over
-/// scenes. At least one; all positive.
+/// The geometric mean of ratios of independent scenes, its interval by the percentile bootstrap
+/// [Efron1979] over scenes, 2,000 resamples, reproducible. At least one; all positive.
 Estimate geometric_mean(std::span<const double> ratios);
 
 }  // namespace strahl

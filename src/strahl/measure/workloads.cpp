@@ -172,8 +172,11 @@ WorkloadKind workload_kind(std::string_view name) {
 Workload make_workload(WorkloadKind kind, const Accelerator& accelerator,
                        const WorkloadOptions& options, const BuildContext& context) {
   switch (kind) {
-    case WorkloadKind::primary:
-      return {kind, primary_rays(options), {}};
+    case WorkloadKind::primary: {
+      std::vector<Ray> rays = primary_rays(options);
+      const std::size_t count = rays.size();
+      return {kind, std::move(rays), {}, count};
+    }
     case WorkloadKind::random:
       return {kind, random_rays(accelerator.scene(), options), {}};
     case WorkloadKind::whitted:

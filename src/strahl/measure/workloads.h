@@ -34,6 +34,7 @@ WorkloadKind workload_kind(std::string_view name);
 struct Workload {
   WorkloadKind kind = WorkloadKind::primary;
   std::vector<Ray> closest, any;
+  std::size_t from_eye = 0;  ///< so many of closest, the first of them, leave the eye
 
   std::size_t size() const { return closest.size() + any.size(); }
 };
