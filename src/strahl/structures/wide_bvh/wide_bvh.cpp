@@ -8,6 +8,7 @@
 #include <strahl/build/optimise.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
+#include <strahl/structures/wide_bvh/wide_estimate.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
 
 namespace strahl {
@@ -102,6 +103,11 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   report_.sah_cost = collapse.cost();
   tree_ = lay_out_wide(tree, collapse, width, frame, all_floats && frame.is_identity(), source,
                        context, report_);
+}
+
+std::uint64_t WideBvh::estimate_bytes(const PrimitiveSource& source, const Options& options,
+                                      const BuildContext& context) {
+  return estimate_wide_bytes(source, options, context);
 }
 
 void WideBvh::hash_into(Hash64& hash) const {

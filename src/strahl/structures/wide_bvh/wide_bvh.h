@@ -46,6 +46,10 @@ class WideBvh {
   /// Throws Error{usage} when STRAHL_ISA names no instruction set of this machine.
   WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context);
 
+  /// What report().bytes will be, within about a tenth (wide_estimate.h).
+  static std::uint64_t estimate_bytes(const PrimitiveSource& source, const Options& options,
+                                      const BuildContext& context);
+
   /// @param world_frame what the ray would be prepared with
   template <class Prims, class Q, class C>
   void trace_ray(Prims& prims, const Ray& ray, const RayFrame& world_frame, Q& query,
