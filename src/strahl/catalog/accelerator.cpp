@@ -139,7 +139,8 @@ void Accelerator::require_pose(const Scene& moved) const {
 }
 
 void Accelerator::update(std::shared_ptr<const Scene>, const BuildContext&) {
-  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level and bvh can", spec_);
+  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level, bvh and wide_bvh can",
+              spec_);
 }
 
 }  // namespace strahl
