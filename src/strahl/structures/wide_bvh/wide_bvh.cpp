@@ -48,17 +48,19 @@ Tree reinserted(Tree tree, const BuildContext& context) {
   return limit_depth(make_tree(linked), kWideMaxDepth, {1.0, 1.0}, context);
 }
 
-/// A binary tree down to single references.
+/// A binary tree down to very few references, which a block would hold anyway.
 Tree build_binary(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& box,
-                  WideQuality quality, const BuildContext& context) {
+                  WideQuality quality, std::size_t max_leaf, const BuildContext& context) {
   if (quality == WideQuality::high) {
     SpatialRules rules;
     rules.max_depth = kWideMaxDepth;
     return build_spatial_tree(source, std::move(refs), box, rules, context);
   }
-  const int bins = quality == WideQuality::fast ? 16 : 32;
-  const auto splitter = make_binned_splitter(refs, bins, {1.0, 1.0});
-  return build_object_tree(*splitter, refs.size(), box, {{1.0, 1.0}, 1, kWideMaxDepth}, context);
+  const bool is_fast = quality == WideQuality::fast;
+  const auto splitter = make_binned_splitter(refs, is_fast ? 8 : 32, {1.0, 1.0});
+  const std::size_t undivided = is_fast ? 8 : 3;  // so few make a block anyway
+  const LeafRules rules{{1.0, 1.0}, 1, kWideMaxDepth, std::min(undivided, max_leaf)};
+  return build_object_tree(*splitter, refs.size(), box, rules, context);
 }
 
 }  // namespace
@@ -97,7 +99,7 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   rules.width = width;
   rules.max_leaf =
       static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
-  Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
+  Tree tree = build_binary(source, std::move(refs), box, options.quality, rules.max_leaf, context);
   if (options.quality == WideQuality::high) tree = reinserted(std::move(tree), context);
   const Collapse collapse(tree, rules, context);
   report_.sah_cost = built_cost_ = collapse.cost();

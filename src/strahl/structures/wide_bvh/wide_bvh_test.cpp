@@ -193,7 +193,7 @@ TEST(WideBvh, TakesAboutFiftySixBytesPerTriangle) {
 /// Small triangles everywhere, and a few long ones that spatial splits cut.
 SceneData mixed_triangles() {
   SceneData data = random_triangles(40000, 0.01, 7);
-  data.geometries.push_back(random_triangles(1000, 0.3, 8).geometries[0]);
+  data.geometries.push_back(random_triangles(200, 0.3, 8).geometries[0]);
   data.geometries.back().geometry_id = 1;
   return data;
 }

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -37,11 +36,6 @@ class Neighbourhood final : public PrimitiveSource {
   std::vector<std::uint32_t> things_;
 };
 
-double bytes_of(const PrimitiveSource& source, const WideBvhOptions& options,
-                const BuildContext& context) {
-  return static_cast<double>(WideBvh(source, options, context).report().bytes - kWideSlack);
-}
-
 /// Halves sets until there is one for each place, then follows one half of each.
 class Sampler {
  public:
@@ -76,16 +70,14 @@ std::uint64_t estimate_wide_bytes(const PrimitiveSource& source, const WideBvhOp
   if (count <= kPlaces * kAtOnePlace) return WideBvh(source, options, context).report().bytes;
   Aabb box;
   for (const PrimRef& ref : refs) box.extend(ref.box);
-  WideBvhOptions uncut = options;
-  if (options.quality == WideQuality::high) uncut.quality = WideQuality::balanced;
-  double bytes = 0.0, uncut_bytes = 0.0, things = 0.0;
+  double bytes = 0.0, references = 0.0, things = 0.0;
   Sampler(source, refs).visit({0, count, box, box}, kPlaces, [&](const Neighbourhood& near) {
-    uncut_bytes += bytes_of(near, uncut, context);
-    if (options.quality == WideQuality::high) bytes += bytes_of(near, options, context);
-    things += near.size();
+    const BuildReport report = WideBvh(near, options, context).report();
+    bytes += static_cast<double>(report.bytes - kWideSlack);
+    references += static_cast<double>(report.references), things += near.size();
   });
-  const double cuts = std::max(bytes - uncut_bytes, 0.0);
-  const double each = (uncut_bytes + (1.0 + kCutsAbove) * cuts) / things;
+  const double cuts = references / things - 1.0;
+  const double each = bytes / references * (1.0 + (1.0 + kCutsAbove) * cuts);
   return static_cast<std::uint64_t>(std::llround(each * static_cast<double>(count))) + kWideSlack;
 }
 
