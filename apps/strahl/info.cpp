@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include <strahl/base/hash.h>
+#include <strahl/catalog/catalog.h>
 
 namespace strahl::cli {
 namespace {
@@ -35,6 +36,13 @@ Json scene_json(const Scene& scene) {
           {"lights", scene.data().lights.size()},
           {"warnings", scene.data().warnings},
           {"scene_hash", to_hex(scene.hash())}};
+}
+
+/// What the structure will take, null where it cannot tell.
+Json estimate_json(const Scene& scene, const std::string& given, const BuildContext& context) {
+  const std::string spec = given.empty() ? std::string(kDefaultSpec) : given;
+  const auto bytes = estimate_bytes(scene, spec, context);
+  return {{"spec", spec}, {"bytes", bytes ? Json(*bytes) : Json(nullptr)}};
 }
 
 Json structure_json(const Accelerator& accelerator, bool epo, const BuildContext& context) {
@@ -77,6 +85,7 @@ int run_info(const InfoOptions& options) {
   Session session(options);
   const std::shared_ptr<const Scene> scene = session.load(options.scene);
   Json json = scene_json(*scene);
+  json["estimate"] = estimate_json(*scene, options.spec, session.context());
   if (!options.spec.empty()) {
     const std::unique_ptr<Accelerator> accelerator = session.build(scene, options.spec);
     accelerator->validate();
@@ -93,6 +102,7 @@ void add_info_command(CLI::App& app, Runner& run) {
   CLI::App* command =
       app.add_subcommand("info", "Statistics of a scene, and of a structure built over it");
   command->footer(
+      "Prints also what the structure will take in memory, if it can tell before it is built.\n"
       "With --structure the structure is built, its invariants are checked (exit code 1 if one is\n"
       "broken) and its size is reported. --epo adds the end-point overlap of a tree of bounding\n"
       "volumes or of two levels of such: what rays cost in nodes that hold their end but not the\n"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bench/peer/embree_scene.h>
 #include <cstring>
+#include <ctime>
 #include <iterator>
 #include <vector>
 
@@ -83,7 +84,14 @@ RTCIntersectContext context_of(PeerApi api) {
   return context;
 }
 
-void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
+double process_seconds() {
+  timespec now;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh,
+                  RTCBuildQuality quality) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.vertices.count));
@@ -95,7 +103,7 @@ void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
     const IndexView::Triple t = mesh.triangles[i];
     for (const std::uint64_t v : {t.a, t.b, t.c}) *corners++ = static_cast<std::uint32_t>(v);
   }
-  rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+  rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -103,18 +111,22 @@ void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa)
-    : device_(rtcNewDevice(
-                  ("threads=1,set_affinity=0" + (isa.empty() ? "" : ",max_isa=" + isa)).c_str()),
+EmbreeScene::EmbreeScene(const Scene& scene, const std::string& isa, RTCBuildQuality quality,
+                         int threads)
+    : device_(rtcNewDevice(("threads=" + std::to_string(threads) + ",set_affinity=0" +
+                            (isa.empty() ? "" : ",max_isa=" + isa))
+                               .c_str()),
               &rtcReleaseDevice),
       scene_(rtcNewScene(device_.get()), &rtcReleaseScene) {
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(scene_.get(), quality);
   for (const Geometry& geometry : scene.geometries())
     if (geometry.kind == PrimitiveKind::triangle)
-      add_geometry(device_.get(), scene_.get(), geometry.mesh);
+      add_geometry(device_.get(), scene_.get(), geometry.mesh, quality);
   const Timer timer;
+  const double cpu = process_seconds();
   rtcCommitScene(scene_.get());
   build_seconds_ = timer.seconds();
+  build_cpu_seconds_ = process_seconds() - cpu;
 }
 
 void EmbreeScene::closest(PeerApi api, std::span<const FloatRay> rays,

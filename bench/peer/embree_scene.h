@@ -43,13 +43,16 @@ const char* name_of(PeerApi api);
 
 class EmbreeScene {
  public:
-  /// All triangles of the scene, instances by identity only, one thread.
+  /// All triangles of the scene, instances by identity only.
   /// @param isa the best instruction set it may use; empty: any
-  EmbreeScene(const Scene& scene, const std::string& isa);
+  EmbreeScene(const Scene& scene, const std::string& isa,
+              RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH, int threads = 1);
 
   void closest(PeerApi api, std::span<const FloatRay> rays, std::span<Result> results) const;
   void any(PeerApi api, std::span<const FloatRay> rays, std::span<std::uint8_t> occluded) const;
   double build_seconds() const { return build_seconds_; }
+  /// Of all threads.
+  double build_cpu_seconds() const { return build_cpu_seconds_; }
 
  private:
   static constexpr std::size_t kStream = 1024;
@@ -67,7 +70,7 @@ class EmbreeScene {
 
   std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
-  double build_seconds_ = 0.0;
+  double build_seconds_ = 0.0, build_cpu_seconds_ = 0.0;
 };
 
 }  // namespace strahl::peer

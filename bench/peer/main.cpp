@@ -1,11 +1,13 @@
 // strahl_bench_peer - the production path next to Embree: the same rays, interleaved, one thread.
 //
+//   strahl_bench_peer --build [--threads N] [--repeat N] SCENE...
 //   strahl_bench_peer [--peer single|best] [--spec SPEC[,SPEC...]] [--size N] [--repeat N] SCENE...
 //
 // Prints per scene and workload the peer's Mrays/s and, for each SPEC, the median of the ratios of
 // neighbouring runs with its 95 % interval. --size: pixels on a side, other sets have as many rays.
 // --peer best: the peer's fastest interface for each workload, of single rays, packets of eight and
-// streams, the latter two also called coherent.
+// streams, the latter two also called coherent. --build: times of builds only, of the peer's HIGH
+// and MEDIUM and of wide_bvh's default and quality=fast.
 #include <algorithm>
 #include <bench/peer/embree_scene.h>
 #include <charconv>
@@ -32,7 +34,8 @@ namespace {
 struct Options {
   std::vector<std::string> specs{"wide_bvh"}, scenes;
   int size = 512, repeat = 7;
-  bool best_peer = false;
+  int threads = 1;  ///< of builds
+  bool best_peer = false, build_only = false;
   std::string workload;  ///< the only one; all where empty
   std::string isa;       ///< the best that either side may use; any where empty
 };
@@ -57,6 +60,10 @@ Options parse(int argc, char** argv) {
       number(options.size);
     else if (argument == "--repeat")
       number(options.repeat);
+    else if (argument == "--threads")
+      number(options.threads);
+    else if (argument == "--build")
+      options.build_only = true;
     else if (argument == "--isa" && i + 1 < argc)
       options.isa = argv[++i];
     else if (argument == "--workload" && i + 1 < argc)
@@ -195,10 +202,52 @@ void race(const std::string& name, const Options& options, Ratios& all) {
   }
 }
 
+/// Wall time where there are more threads, else processor time.
+double peer_build(const Scene& scene, const Options& options, RTCBuildQuality quality) {
+  const EmbreeScene peer(scene, options.isa, quality, options.threads);
+  return options.threads > 1 ? peer.build_seconds() : peer.build_cpu_seconds();
+}
+double own_build(const std::shared_ptr<const Scene>& scene, const char* spec,
+                 const Options& options) {
+  BuildContext context;
+  context.executor = Executor::with_threads(options.threads);
+  const CpuTimer timer;
+  const auto built = build(scene, spec, context);
+  return options.threads > 1 ? built->report().seconds : timer.seconds();
+}
+
+/// Builds of both sides in turn; ratios are own over peer.
+void race_builds(const std::string& name, const Options& options, Ratios& all) {
+  struct Pair {
+    const char* label;
+    const char* spec;
+    RTCBuildQuality quality;
+  };
+  const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+  std::printf("%-24.24s %9u triangles", name.substr(name.rfind('/') + 1).c_str(), scene->size());
+  for (const Pair& pair :
+       {Pair{"default / HIGH", "wide_bvh", RTC_BUILD_QUALITY_HIGH},
+        Pair{"fast / MEDIUM", "wide_bvh:quality=fast", RTC_BUILD_QUALITY_MEDIUM}}) {
+    std::vector<double> theirs, ours;
+    for (int i = 0; i <= options.repeat; ++i) {
+      const double peer = peer_build(*scene, options, pair.quality);
+      const double own = own_build(scene, pair.spec, options);
+      if (i > 0) theirs.push_back(peer), ours.push_back(own);
+    }
+    const Estimate e = median_ratio(ours, theirs);
+    std::printf("; %s: %.3f s / %.3f s = %.2f [%.2f %.2f]", pair.label, median(ours),
+                median(theirs), e.value, e.low, e.high);
+    all[pair.label].push_back(e.value);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 int run(const Options& options) {
   if (!options.isa.empty()) ::setenv("STRAHL_ISA", options.isa.c_str(), 1);
   Ratios all;
-  for (const std::string& scene : options.scenes) race(scene, options, all);
+  for (const std::string& scene : options.scenes)
+    options.build_only ? race_builds(scene, options, all) : race(scene, options, all);
   std::printf("geometric means of the ratios\n");
   for (const auto& [what, ratios] : all) {
     double sum = 0.0;

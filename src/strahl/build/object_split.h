@@ -20,8 +20,9 @@ namespace strahl {
 struct ObjectSet {
   std::size_t begin = 0, end = 0;
   Aabb box;
-  Aabb cell{};   ///< holds all centres; kept by splitters that divide space, else empty
-  int turn = 0;  ///< the axis whose turn it is; kept by splitters that take them in turn
+  Aabb cell{};     ///< holds all centres; kept by splitters that divide space, else empty
+  int turn = 0;    ///< the axis whose turn it is; kept by splitters that take them in turn
+  Aabb centers{};  ///< box of the doubled centres, where the splitter has found it already
   std::size_t size() const { return end - begin; }
 };
 

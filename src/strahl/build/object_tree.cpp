@@ -17,7 +17,7 @@ class ObjectPolicy {
       : splitter_(splitter), rules_(rules) {}
 
   std::optional<ObjectSplit> plan(const ObjectSet& set, int depth) const {
-    if (set.size() == 1) return std::nullopt;
+    if (set.size() <= rules_.undivided) return std::nullopt;
     // Halving from here on ends in single primitives within the levels that are left.
     const int levels_left = rules_.max_depth - depth;
     if (static_cast<int>(std::bit_width(set.size() - 1)) >= levels_left)

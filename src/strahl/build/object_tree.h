@@ -10,8 +10,9 @@ namespace strahl {
 /// When to stop dividing.
 struct LeafRules {
   SahCost cost;
-  std::size_t max_leaf = 4;  ///< more primitives are divided even if a leaf seems cheaper
-  int max_depth = 64;        ///< hard limit; near it sets are halved so that it holds
+  std::size_t max_leaf = 4;   ///< more primitives are divided even if a leaf seems cheaper
+  int max_depth = 64;         ///< hard limit; near it sets are halved so that it holds
+  std::size_t undivided = 1;  ///< so few are a leaf without asking what a division would cost
 };
 
 /// Divides all of the splitter's primitives. Deterministic for any executor. n > 0.

@@ -43,6 +43,21 @@ TEST(ObjectTree, HoldsItsInvariants) {
     }
 }
 
+TEST(ObjectTree, LeavesSmallSetsUndividedAndOnlyThose) {
+  const Refs refs = random_refs(3000, 1);
+  for (const Splitter splitter : kSplitters) {
+    const Tree tree = build(refs, splitter, {kCost, 1, 64, 3});
+    TreeCheck{tree, refs, 3}.run();
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+      if (tree.nodes[i].is_leaf()) continue;
+      const TreeNode &left = tree.nodes[i + 1], &right = tree.nodes[tree.nodes[i].right];
+      if (left.is_leaf() && right.is_leaf()) {
+        EXPECT_GT(left.count + right.count, 3u);
+      }
+    }
+  }
+}
+
 TEST(ObjectTree, IsALeafForASinglePrimitive) {
   for (const Splitter splitter : kSplitters) {
     const Tree tree = build(random_refs(1, 2), splitter, {kCost, 1, 64});

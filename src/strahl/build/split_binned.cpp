@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -13,6 +15,7 @@ constexpr int kMaxBins = 256;
 struct Bin {
   Aabb box;
   std::size_t count = 0;
+  void add(const Aabb& one) { box.extend(one), ++count; }
   void add(const Bin& o) { box.extend(o.box), count += o.count; }
 };
 
@@ -38,8 +41,13 @@ class BinnedSplitter final : public InPlaceSplitter {
   ObjectSplit find(const ObjectSet& set) const override {
     ObjectSplit best;
     best.centers = center_box(set);
+    const auto used = static_cast<std::size_t>(bins_for(set));
+    Bins x(used), y(used), z(used);
+    Bins* const bins[3] = {&x, &y, &z};
+    fill(set, best.centers, bins);
     for (int axis = 0; axis < 3; ++axis)
-      if (best.centers.hi[axis] > best.centers.lo[axis]) try_axis(set, axis, best);
+      if (best.centers.hi[axis] > best.centers.lo[axis])
+        try_axis(set, axis, *bins[axis], used - 1, best);
     return best;
   }
 
@@ -76,24 +84,35 @@ class BinnedSplitter final : public InPlaceSplitter {
                                                             : bins_;
   }
 
-  void try_axis(const ObjectSet& set, int axis, ObjectSplit& best) const {
-    const Scale scale(best.centers, axis, bins_for(set));
-    Bins bins(scale.last + 1), right(scale.last + 1);
+  /// All axes in one pass; one without extent puts all in some bin and is not looked at.
+  void fill(const ObjectSet& set, const Aabb& centers, Bins* const (&bins)[3]) const {
+    const Scale x(centers, 0, bins_for(set)), y(centers, 1, bins_for(set)),
+        z(centers, 2, bins_for(set));
     for (const PrimRef& ref : refs_of(set)) {
-      Bin& bin = bins[scale.bin(ref.box)];
-      bin.box.extend(ref.box);
-      ++bin.count;
+      (*bins[0])[x.bin(ref.box)].add(ref.box);
+      (*bins[1])[y.bin(ref.box)].add(ref.box);
+      (*bins[2])[z.bin(ref.box)].add(ref.box);
     }
-    Bin sum;
-    for (std::size_t b = scale.last; b > 0; --b) sum.add(bins[b]), right[b] = sum;
+  }
+
+  void try_axis(const ObjectSet& set, int axis, Bins& bins, std::size_t last,
+                ObjectSplit& best) const {
     const double whole = set.box.half_area();
+    const auto cost_of = [&](const Bin& side) {
+      return sah_share(side.box.half_area(), whole) * sah_leaf_cost(cost_, side.count);
+    };
+    std::array<double, kMaxBins> right;  // of what lies behind a bin; not set where it is empty
+    Bin sum;
+    for (std::size_t b = last; b > 0; --b) {
+      if (bins[b].count > 0) sum.add(bins[b]);
+      right[b - 1] = bins[b - 1].count > 0 ? cost_of(sum) : 0.0;
+    }
     Bin left;
-    for (std::size_t b = 0; b < scale.last; ++b) {
+    for (std::size_t b = 0; b < last; ++b) {
+      if (bins[b].count == 0) continue;  // the same division as the one before
       left.add(bins[b]);
-      if (left.count == 0 || right[b + 1].count == 0) continue;
-      const double cost =
-          sah_split_cost(cost_, sah_share(left.box.half_area(), whole), left.count,
-                         sah_share(right[b + 1].box.half_area(), whole), right[b + 1].count);
+      if (left.count == set.size()) return;
+      const double cost = cost_.traverse + cost_of(left) + right[b];
       if (cost < best.cost) best.cost = cost, best.axis = axis, best.position = b;
     }
   }

@@ -35,6 +35,7 @@ class InPlaceSplitter : public ObjectSplitter {
 
   /// Box of the doubled centres.
   Aabb center_box(const ObjectSet& set) const {
+    if (!set.centers.is_empty()) return set.centers;
     Aabb box;
     for (const PrimRef& ref : refs_of(set)) box.extend(doubled_center(ref.box));
     return box;
@@ -50,12 +51,19 @@ class InPlaceSplitter : public ObjectSplitter {
     return both_sides(set, middle);
   }
 
-  /// Sorts those for which is_left(box) holds to the front.
+  /// Sorts those for which is_left(box) holds to the front; bounds both sides on the way.
   template <class IsLeft>
   std::pair<ObjectSet, ObjectSet> divide_by(const ObjectSet& set, IsLeft is_left) const {
     const std::span<PrimRef> refs = refs_of(set);
-    return both_sides(set, std::partition(refs.begin(), refs.end(),
-                                          [&](const PrimRef& ref) { return is_left(ref.box); }));
+    ObjectSet left{set.begin, set.begin, {}}, right{set.end, set.end, {}};
+    const auto middle = std::partition(refs.begin(), refs.end(), [&](const PrimRef& ref) {
+      const bool is_first = is_left(ref.box);
+      ObjectSet& side = is_first ? left : right;
+      side.box.extend(ref.box), side.centers.extend(doubled_center(ref.box));
+      return is_first;
+    });
+    left.end = right.begin = set.begin + static_cast<std::size_t>(middle - refs.begin());
+    return {left, right};
   }
 
  private:

@@ -9,11 +9,20 @@
 namespace strahl {
 namespace {
 
-/// Rays per task: enough to hide the virtual call, few enough that all threads get some.
+/// Rays per task: enough to hide the virtual call, few enough that all threads get some; in whole
+/// blocks of a structure that takes many at once. The number of tasks does not grow with that of
+/// the rays, nor does what they allocate.
 std::size_t span_size(std::size_t rays, const Executor& executor) {
-  constexpr std::size_t kLeast = 16, kMost = 1024, kPerThread = 4;
+  constexpr std::size_t kLeast = 16, kBlock = 64, kPerThread = 16;
   const std::size_t spans = kPerThread * static_cast<std::size_t>(executor.width());
-  return std::clamp(rays / spans, kLeast, kMost);
+  const std::size_t size = std::max((rays + spans - 1) / spans, kLeast);
+  return size <= kBlock ? size : (size + kBlock - 1) / kBlock * kBlock;
+}
+
+/// Spans whose hits are kept are short, so that the memory limit is seen in time.
+std::size_t kept_span_size(std::size_t rays, const Executor& executor) {
+  constexpr std::size_t kMost = 1024;
+  return std::min(span_size(rays, executor), kMost);
 }
 
 void require_outputs(std::size_t got, std::size_t rays, const char* what) {
@@ -37,13 +46,15 @@ BatchReport Accelerator::run(const RayBatch& rays, QueryKind kind, const BatchCo
   std::atomic<std::size_t> done{0};
   std::mutex mutex;
   BatchReport sum;
-  executor.parallel_for(0, rays.size(), span_size(rays.size(), executor),
-                        [&](std::size_t first, std::size_t last) {
-                          SpanJob span{rays, context, done, first, last, kind};
-                          const BatchReport part = answer(span);
-                          const std::lock_guard lock(mutex);
-                          sum_up(part, sum);
-                        });
+  const bool is_kept = kind == QueryKind::all;
+  const std::size_t size =
+      is_kept ? kept_span_size(rays.size(), executor) : span_size(rays.size(), executor);
+  executor.parallel_for(0, rays.size(), size, [&](std::size_t first, std::size_t last) {
+    SpanJob span{rays, context, done, first, last, kind};
+    const BatchReport part = answer(span);
+    const std::lock_guard lock(mutex);
+    sum_up(part, sum);
+  });
   return sum;
 }
 
@@ -85,7 +96,7 @@ BatchReport Accelerator::inside(const RayBatch& rays, std::span<Side> sides,
 
 BatchReport Accelerator::all_hits(const RayBatch& rays, AllHits& hits,
                                   const BatchContext& context) const {
-  const std::size_t n = rays.size(), size = span_size(n, context.context.executor);
+  const std::size_t n = rays.size(), size = kept_span_size(n, context.context.executor);
   std::vector<std::vector<Hit>> parts((n + size - 1) / size);
   std::vector<std::uint32_t> counts(n);
   std::atomic<std::uint64_t> total{0};
@@ -109,8 +120,9 @@ BatchReport Accelerator::all_hits(const RayBatch& rays, AllHits& hits,
 }
 
 Hit Accelerator::closest_hit(const Ray& ray) const {
+  static const BatchContext kAlone;  // making one allocates
   Hit hit;
-  closest_hit(make_batch({&ray, 1}), {&hit, 1});
+  closest_hit(make_batch({&ray, 1}), {&hit, 1}, kAlone);
   return hit;
 }
 
@@ -127,7 +139,8 @@ void Accelerator::require_pose(const Scene& moved) const {
 }
 
 void Accelerator::update(std::shared_ptr<const Scene>, const BuildContext&) {
-  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level and bvh can", spec_);
+  throw Error(ErrorCode::unsupported, "this structure cannot move; two_level, bvh and wide_bvh can",
+              spec_);
 }
 
 }  // namespace strahl

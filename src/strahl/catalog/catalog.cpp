@@ -50,6 +50,15 @@ std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, std::stri
   return find_entry(parsed, spec).build(std::move(scene), parsed.options, context);
 }
 
+std::optional<std::uint64_t> estimate_bytes(const Scene& scene, std::string_view spec,
+                                            const BuildContext& context) {
+  const Spec parsed = parse_spec(spec);
+  const StructureEntry& entry = find_entry(parsed, spec);
+  if (entry.estimate_bytes == nullptr) return std::nullopt;
+  const FpEnvGuard environment;
+  return entry.estimate_bytes(scene, parsed.options, context);
+}
+
 std::unique_ptr<Level> build_level(const PrimitiveSource& source, std::string_view spec,
                                    const BuildContext& context) {
   const Spec parsed = parse_spec(spec);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,9 @@ struct StructureEntry {
   /// As a level of a two-level structure (structures/two_level/level.h).
   std::unique_ptr<Level> (*build_level)(const PrimitiveSource&, std::span<const OptionValue>,
                                         const BuildContext&) = nullptr;
+  /// Null for structures that cannot tell.
+  std::uint64_t (*estimate_bytes)(const Scene&, std::span<const OptionValue>,
+                                  const BuildContext&) = nullptr;
 };
 
 /// All structures in the order of structures.def.
@@ -57,6 +61,11 @@ std::span<const StructureEntry> all_structures();
 /// ones) or a bad option, resource above the memory limit, cancelled by the progress callback.
 std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, std::string_view spec,
                                    const BuildContext& context = {});
+
+/// About how many bytes report() of the structure will give, told without building it; nothing for
+/// structures that cannot tell. Throws as build() does.
+std::optional<std::uint64_t> estimate_bytes(const Scene& scene, std::string_view spec,
+                                            const BuildContext& context = {});
 
 /// The same over any source, as a level of a two-level structure. The source need not outlive it.
 std::unique_ptr<Level> build_level(const PrimitiveSource& source, std::string_view spec,

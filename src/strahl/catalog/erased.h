@@ -48,6 +48,13 @@ concept Moves = requires(S& s, const Scene& pose, const BuildContext& context) {
   s.move(pose, context);
 };
 
+/// A structure that knows its size before it is built.
+template <class S>
+concept EstimatesBytes = requires(const Scene& scene, const typename S::Options& options,
+                                  const BuildContext& context) {
+  { S::estimate_bytes(scene, options, context) } -> std::same_as<std::uint64_t>;
+};
+
 /// A tree whose bounding volumes can be looked at.
 template <class S>
 concept ShowsVolumes = requires(const S& s, const PreparedRay& ray) {
@@ -268,15 +275,22 @@ class Erased final : public Accelerator {
 /// The catalogue's row for S.
 template <class S>
 StructureEntry make_entry() {
-  return {S::kName, S::kTitle, &describe_options<typename S::Options>,
-          [](std::shared_ptr<const Scene> scene, std::span<const OptionValue> given,
-             const BuildContext& context) -> std::unique_ptr<Accelerator> {
-            const auto options = parse_options<typename S::Options>(given, S::kName);
-            const Timer timer;
-            auto built = std::make_unique<Erased<S>>(std::move(scene), options, context);
-            built->set_seconds(timer.seconds());
-            return built;
-          }};
+  StructureEntry entry{S::kName, S::kTitle, &describe_options<typename S::Options>,
+                       [](std::shared_ptr<const Scene> scene, std::span<const OptionValue> given,
+                          const BuildContext& context) -> std::unique_ptr<Accelerator> {
+                         const auto options = parse_options<typename S::Options>(given, S::kName);
+                         const Timer timer;
+                         auto built =
+                             std::make_unique<Erased<S>>(std::move(scene), options, context);
+                         built->set_seconds(timer.seconds());
+                         return built;
+                       }};
+  if constexpr (EstimatesBytes<S>)
+    entry.estimate_bytes = [](const Scene& scene, std::span<const OptionValue> given,
+                              const BuildContext& context) {
+      return S::estimate_bytes(scene, parse_options<typename S::Options>(given, S::kName), context);
+    };
+  return entry;
 }
 
 }  // namespace strahl

@@ -74,12 +74,14 @@ void expect_same(const Accelerator& moved, const std::shared_ptr<const Scene>& s
   }
 }
 
-TEST(Update, EveryFrameOfADeformingMeshHasTheBitsOfABvhBuiltAnew) {
+TEST(Update, EveryFrameOfADeformingMeshHasTheBitsOfOneBuiltAnew) {
   const MeshMaker mesh = cloth(10);
   const ScenePtr rest = cloth_scene(mesh);
   for (const char* spec :
        {"bvh", "bvh:rebuild_factor=1", "bvh:bv=sphere,traversal=heap,rebuild_factor=100",
-        "bvh:builder=spatial,duplicates=1,rebuild_factor=100", "bvh:arity=8,bv=auto"}) {
+        "bvh:builder=spatial,duplicates=1,rebuild_factor=100", "bvh:arity=8,bv=auto", "wide_bvh",
+        "wide_bvh:rebuild_factor=1", "wide_bvh:width=8,rebuild_factor=100",
+        "wide_bvh:quality=high,rebuild_factor=100"}) {
     SCOPED_TRACE(spec);
     const auto bvh = build(rest, spec);
     for (int frame = 0; frame < 4; ++frame) {
@@ -94,28 +96,32 @@ TEST(Update, EveryFrameOfADeformingMeshHasTheBitsOfABvhBuiltAnew) {
 TEST(Update, FollowsPosesAndShapesTogether) {
   const MeshMaker mesh = cloth(8);
   const ScenePtr rest = cloth_scene(mesh);
-  const auto bvh = build(rest, "bvh");
-  for (int frame = 0; frame < 4; ++frame) {
-    const std::vector<Affine> maps{Affine::translation({0.1 * frame, 0, 0}),
-                                   Affine::rotation(0, 0, 0.1 * frame, 1)};
-    const auto scene =
-        std::make_shared<const Scene>(deformed(rest->posed(maps), waved(mesh, frame, 0.2)));
-    bvh->update(scene, {});
-    expect_same(*bvh, scene);
+  for (const char* spec : {"bvh", "wide_bvh"}) {
+    const auto bvh = build(rest, spec);
+    for (int frame = 0; frame < 4; ++frame) {
+      const std::vector<Affine> maps{Affine::translation({0.1 * frame, 0, 0}),
+                                     Affine::rotation(0, 0, 0.1 * frame, 1)};
+      const auto scene =
+          std::make_shared<const Scene>(deformed(rest->posed(maps), waved(mesh, frame, 0.2)));
+      bvh->update(scene, {});
+      expect_same(*bvh, scene);
+    }
   }
 }
 
 TEST(Update, FollowsTrianglesThatVanishAndComeBack) {
   const MeshMaker mesh = cloth(8);
   const ScenePtr rest = cloth_scene(mesh);
-  const auto bvh = build(rest, "bvh:rebuild_factor=1000");
-  for (const std::size_t flat : {3u, 9u, 0u}) {
-    MeshMaker folded = mesh;
-    for (std::size_t i = 0; i < flat; ++i) folded.vertices[i] = folded.vertices[flat];
-    const auto scene = std::make_shared<const Scene>(deformed(*rest, waved(folded, 0, 0.1)));
-    EXPECT_EQ(scene->counts().refused() > 0, flat > 0);
-    bvh->update(scene, {});
-    expect_same(*bvh, scene);
+  for (const char* spec : {"bvh:rebuild_factor=1000", "wide_bvh:rebuild_factor=1000"}) {
+    const auto bvh = build(rest, spec);
+    for (const std::size_t flat : {3u, 9u, 0u}) {
+      MeshMaker folded = mesh;
+      for (std::size_t i = 0; i < flat; ++i) folded.vertices[i] = folded.vertices[flat];
+      const auto scene = std::make_shared<const Scene>(deformed(*rest, waved(folded, 0, 0.1)));
+      EXPECT_EQ(scene->counts().refused() > 0, flat > 0);
+      bvh->update(scene, {});
+      expect_same(*bvh, scene);
+    }
   }
 }
 

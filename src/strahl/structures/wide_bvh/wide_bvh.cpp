@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -8,7 +9,10 @@
 #include <strahl/build/optimise.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
+#include <strahl/structures/wide_bvh/wide_estimate.h>
+#include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
+#include <strahl/structures/wide_bvh/wide_refit.h>
 
 namespace strahl {
 namespace {
@@ -23,16 +27,11 @@ int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
   return options.width == WideWidth::sixteen ? 16 : 8;
 }
 
-bool are_floats(const TriangleVertices& t) {
-  const auto is_float = [](const Vec3d& v) { return Vec3d(Vec3f(v)) == v; };
-  return is_float(t.a) && is_float(t.b) && is_float(t.c);
-}
-
 /// Whether all things are triangles with float corners.
-bool has_float_corners(std::span<const PrimRef> refs, const PrimitiveSource& source) {
+bool have_float_corners(std::span<const PrimRef> refs, const PrimitiveSource& source) {
   return std::all_of(refs.begin(), refs.end(), [&](const PrimRef& ref) {
     TriangleVertices triangle;
-    return !source.triangle(ref.reference, triangle) || are_floats(triangle);
+    return !source.triangle(ref.reference, triangle) || has_float_corners(triangle);
   });
 }
 
@@ -49,17 +48,19 @@ Tree reinserted(Tree tree, const BuildContext& context) {
   return limit_depth(make_tree(linked), kWideMaxDepth, {1.0, 1.0}, context);
 }
 
-/// A binary tree down to single references.
+/// A binary tree down to very few references, which a block would hold anyway.
 Tree build_binary(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& box,
-                  WideQuality quality, const BuildContext& context) {
+                  WideQuality quality, std::size_t max_leaf, const BuildContext& context) {
   if (quality == WideQuality::high) {
     SpatialRules rules;
     rules.max_depth = kWideMaxDepth;
     return build_spatial_tree(source, std::move(refs), box, rules, context);
   }
-  const int bins = quality == WideQuality::fast ? 16 : 32;
-  const auto splitter = make_binned_splitter(refs, bins, {1.0, 1.0});
-  return build_object_tree(*splitter, refs.size(), box, {{1.0, 1.0}, 1, kWideMaxDepth}, context);
+  const bool is_fast = quality == WideQuality::fast;
+  const auto splitter = make_binned_splitter(refs, is_fast ? 8 : 32, {1.0, 1.0});
+  const std::size_t undivided = is_fast ? 8 : 3;  // so few make a block anyway
+  const LeafRules rules{{1.0, 1.0}, 1, kWideMaxDepth, std::min(undivided, max_leaf)};
+  return build_object_tree(*splitter, refs.size(), box, rules, context);
 }
 
 }  // namespace
@@ -79,29 +80,48 @@ OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
       option("batch", &WideBvhOptions::batch,
              {{"interleaved", WideBatch::interleaved}, {"single", WideBatch::single}},
              "float rays of a batch: many under way at once, or one after the other"),
+      option("rebuild_factor", &WideBvhOptions::rebuild_factor, 1.0, 1000.0,
+             "when things move: built anew where fitting makes the SAH cost this times as high"),
   };
 }
 
 WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
-    : kernel_(&wide_kernel_of_environment()), batch_(options.batch) {
+    : options_(options), kernel_(&wide_kernel_of_environment()), batch_(options.batch) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   if (refs.empty()) return;
   const int width = width_of(options, *kernel_);
   context.require_memory(refs.size() * bytes_per_primitive(width), "wide_bvh");
   Aabb box;
   for (const PrimRef& ref : refs) box.extend(ref.box);
-  const bool all_floats = has_float_corners(refs, source);
+  const bool all_floats = have_float_corners(refs, source);
   const WideFrame frame = make_wide_frame(box);
   CollapseRules rules;
   rules.width = width;
   rules.max_leaf =
       static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
-  Tree tree = build_binary(source, std::move(refs), box, options.quality, context);
+  Tree tree = build_binary(source, std::move(refs), box, options.quality, rules.max_leaf, context);
   if (options.quality == WideQuality::high) tree = reinserted(std::move(tree), context);
   const Collapse collapse(tree, rules, context);
-  report_.sah_cost = collapse.cost();
+  report_.sah_cost = built_cost_ = collapse.cost();
   tree_ = lay_out_wide(tree, collapse, width, frame, all_floats && frame.is_identity(), source,
                        context, report_);
+}
+
+void WideBvh::refit(const PrimitiveSource& source, const BuildContext& context) {
+  std::optional<FittedWideTree> fitted = fit_wide_tree(tree_, source, context);
+  if (!fitted || fitted->cost > options_.rebuild_factor * built_cost_) {
+    fitted.reset();
+    *this = WideBvh(source, options_, context);
+    return;
+  }
+  tree_ = std::move(fitted->tree);
+  report_.sah_cost = fitted->cost;
+  ++refits_;
+}
+
+std::uint64_t WideBvh::estimate_bytes(const PrimitiveSource& source, const Options& options,
+                                      const BuildContext& context) {
+  return estimate_wide_bytes(source, options, context);
 }
 
 void WideBvh::hash_into(Hash64& hash) const {

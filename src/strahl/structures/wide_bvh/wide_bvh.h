@@ -16,7 +16,7 @@
 #include <strahl/base/options.h>
 #include <strahl/build/box_tree.h>
 #include <strahl/build/build_report.h>
-#include <strahl/geometry/primitive_source.h>
+#include <strahl/geometry/scene.h>
 #include <strahl/query/policies.h>
 #include <strahl/structures/wide_bvh/wide_float_trace.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
@@ -31,6 +31,7 @@ struct WideBvhOptions {
   WideWidth width = WideWidth::automatic;
   int leaf_size = 0;
   WideBatch batch = WideBatch::interleaved;
+  double rebuild_factor = 1.5;
 };
 
 OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*);
@@ -45,6 +46,23 @@ class WideBvh {
 
   /// Throws Error{usage} when STRAHL_ISA names no instruction set of this machine.
   WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context);
+
+  /// Follows things that have moved, numbered as those it was built over: boxes and blocks are
+  /// written anew (wide_refit.h), or it is built anew where what can be hit has changed or growth()
+  /// would exceed rebuild_factor. O(n) where it does not build. Deterministic for any executor, but
+  /// depends on what was before. Not while rays are traced. Throws as a build does, and nothing has
+  /// changed then.
+  void refit(const PrimitiveSource& source, const BuildContext& context);
+  /// The same, as Accelerator::update() calls it.
+  void move(const Scene& scene, const BuildContext& context) { refit(scene, context); }
+  /// SAH cost now over that when it was last built: how much a build would bring.
+  double growth() const { return built_cost_ > 0.0 ? report_.sah_cost / built_cost_ : 1.0; }
+  /// How often it was fitted since it was last built.
+  std::uint64_t refits() const { return refits_; }
+
+  /// What report().bytes will be, within about a tenth (wide_estimate.h).
+  static std::uint64_t estimate_bytes(const PrimitiveSource& source, const Options& options,
+                                      const BuildContext& context);
 
   /// @param world_frame what the ray would be prepared with
   template <class Prims, class Q, class C>
@@ -80,10 +98,13 @@ class WideBvh {
  private:
   friend class WideBvhChecker;
   friend class WideBvhBreaker;  ///< plants faults for the tests
+  Options options_;
   const WideKernel* kernel_;
   WideBatch batch_;
   WideTree tree_;
   BuildReport report_;
+  double built_cost_ = 0.0;  ///< SAH, when it was last built
+  std::uint64_t refits_ = 0;
 };
 
 }  // namespace strahl

@@ -190,6 +190,28 @@ TEST(WideBvh, TakesAboutFiftySixBytesPerTriangle) {
   EXPECT_LT(static_cast<double>(bvh.report().bytes) / 20000, 58.0);
 }
 
+/// Small triangles everywhere, and a few long ones that spatial splits cut.
+SceneData mixed_triangles() {
+  SceneData data = random_triangles(40000, 0.01, 7);
+  data.geometries.push_back(random_triangles(200, 0.3, 8).geometries[0]);
+  data.geometries.back().geometry_id = 1;
+  return data;
+}
+
+TEST(WideBvh, KnowsItsSizeBeforeItIsBuilt) {
+  for (const WideQuality quality : kQualities)
+    for (const WideWidth width : {WideWidth::eight, WideWidth::sixteen}) {
+      const Scene large(mixed_triangles()), small(random_triangles(500, 0.1, 9));
+      const auto ratio = [&](const Scene& scene) {
+        const WideBvhOptions options = with(quality, width);
+        const auto bytes = static_cast<double>(WideBvh(scene, options, {}).report().bytes);
+        return static_cast<double>(WideBvh::estimate_bytes(scene, options, {})) / bytes;
+      };
+      EXPECT_EQ(ratio(small), 1.0);
+      EXPECT_NEAR(ratio(large), 1.0, 0.1);
+    }
+}
+
 TEST(WideOrder, PutsTheBitsOfSlotsIntoARaysOrder) {
   for (std::uint32_t order = 0; order < 8; ++order)
     for (std::uint32_t bits = 1; bits < 256; ++bits) {

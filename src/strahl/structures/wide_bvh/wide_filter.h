@@ -55,6 +55,12 @@ struct LaneCorners {
   double error = 0.0;  ///< at most this far from the true corners
 };
 
+/// Whether all coordinates are values of floats.
+inline bool has_float_corners(const TriangleVertices& t) {
+  const auto is_float = [](const Vec3d& v) { return Vec3d(Vec3f(v)) == v; };
+  return is_float(t.a) && is_float(t.b) && is_float(t.c);
+}
+
 /// Corners in the frame, rounded to nearest.
 LaneCorners lane_corners(const TriangleVertices& triangle, const WideFrame& frame);
 

@@ -1,16 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
-#include <limits>
 
-#include <strahl/math/float_round.h>
-#include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
+#include <strahl/structures/wide_bvh/wide_write.h>
 
 namespace strahl {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
 /// The octant of a slot: bit a set on the high side of axis a.
@@ -104,29 +100,12 @@ class Layout {
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::uint32_t unit;
     std::byte* block = take(leaf_bytes(lanes), unit);
-    std::array<LaneCorners, kWideMaxLanes> corners;
-    for (std::uint32_t i = 0; i < lanes; ++i) {
-      write_lane(block, lanes, i, references[i], corners[i]);
-      const_cast<std::uint32_t*>(reference_row(block, lanes))[i] = references[i];
-    }
-    const LeafBound bound = leaf_bound(std::span(corners).first(lanes));
-    std::memcpy(block, &bound, sizeof bound);
+    std::copy(references.begin(), references.end(),
+              const_cast<std::uint32_t*>(reference_row(block, lanes)));
+    strahl::write_block(block, references, out_.frame, source_);
     ++report_.nodes, ++report_.leaves, report_.references += lanes;
     report_.depth = std::max(report_.depth, depth);
     return kWideLeaf | unit << 4 | (lanes - 1);
-  }
-
-  void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane,
-                  std::uint32_t reference, LaneCorners& corners) {
-    TriangleVertices triangle;
-    const bool is_triangle = source_.triangle(reference, triangle);
-    if (is_triangle) corners = lane_corners(triangle, out_.frame);
-    const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
-    const Vec3f stored[3] = {is_triangle ? corners.a : nan, is_triangle ? corners.b : nan,
-                             is_triangle ? corners.c : nan};
-    for (std::uint32_t row = 0; row < 9; ++row)
-      const_cast<float*>(corner_row(block, lanes, row))[lane] =
-          stored[row / 3][static_cast<int>(row % 3)];
   }
 
   WideId write_node(std::uint32_t node, std::uint64_t depth) {
@@ -160,19 +139,9 @@ class Layout {
   }
 
   void write_boxes(std::byte* at, const Children& children, std::span<const int> slots) const {
-    auto* planes = const_cast<float*>(plane_row(at, out_.width, 0));
-    std::fill_n(planes, 3 * out_.width, kInfinity);
-    std::fill_n(planes + 3 * out_.width, 3 * out_.width, -kInfinity);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i) {
-      const Aabb& box = tree_.nodes[children.node[i]].box;
-      const Vec3d lo = out_.frame.to_frame(box.lo), hi = out_.frame.to_frame(box.hi);
-      // to_frame() rounds by 2^-53 of its result; where it does, one float more is far enough.
-      const double off = out_.frame.is_identity() ? 0.0 : 0x1p-50 * out_.frame.reach;
-      for (int axis = 0; axis < 3; ++axis) {
-        planes[axis * out_.width + slots[i]] = float_below(lo[axis] - off);
-        planes[(axis + 3) * out_.width + slots[i]] = float_above(hi[axis] + off);
-      }
-    }
+    clear_boxes(at, out_.width);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i)
+      write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, out_.frame);
   }
 
   const Tree& tree_;

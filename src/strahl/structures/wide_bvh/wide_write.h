@@ -1,0 +1,23 @@
+// structures/wide_bvh/wide_write.h - how boxes and blocks are written into the arena, by the layout
+// and when things have moved.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <strahl/geometry/primitive_source.h>
+#include <strahl/structures/wide_bvh/wide_tree.h>
+
+namespace strahl {
+
+/// Makes every slot of a node one that no ray enters.
+void clear_boxes(std::byte* node, int width);
+
+/// Writes a child's box, rounded outward into the frame.
+void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame);
+
+/// Writes error bounds and corners of a block of these lanes.
+void write_block(std::byte* block, std::span<const std::uint32_t> references,
+                 const WideFrame& frame, const PrimitiveSource& source);
+
+}  // namespace strahl
