@@ -39,8 +39,7 @@ Json scene_json(const Scene& scene) {
 }
 
 /// What the structure will take, null where it cannot tell.
-Json estimate_json(const Scene& scene, const std::string& given, const BuildContext& context) {
-  const std::string spec = given.empty() ? std::string(kDefaultSpec) : given;
+Json estimate_json(const Scene& scene, const std::string& spec, const BuildContext& context) {
   const auto bytes = estimate_bytes(scene, spec, context);
   return {{"spec", spec}, {"bytes", bytes ? Json(*bytes) : Json(nullptr)}};
 }
@@ -85,9 +84,11 @@ int run_info(const InfoOptions& options) {
   Session session(options);
   const std::shared_ptr<const Scene> scene = session.load(options.scene);
   Json json = scene_json(*scene);
-  json["estimate"] = estimate_json(*scene, options.spec, session.context());
+  const std::string spec = options.spec.empty() ? std::string(kDefaultSpec)
+                                                : session.chosen_spec(scene, options.spec, {});
+  json["estimate"] = estimate_json(*scene, spec, session.context());
   if (!options.spec.empty()) {
-    const std::unique_ptr<Accelerator> accelerator = session.build(scene, options.spec);
+    const std::unique_ptr<Accelerator> accelerator = session.build(scene, spec);
     accelerator->validate();
     json["structure"] = structure_json(*accelerator, options.epo, session.context());
     session.finish_progress();

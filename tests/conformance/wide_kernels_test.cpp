@@ -141,6 +141,27 @@ struct FloatRays {
     return out;
   }
 
+  /// Blocks of 64 rays to all of the scene from the places of a set, or from there along an axis.
+  static FloatRays from_places(const RaySet& set, const Scene& scene, std::uint64_t seed) {
+    const FloatRays all(set);
+    const Aabb box = scene.total_bounds();
+    FloatRays out;
+    Rng rng(seed);
+    for (std::size_t i = 0; i < all.records.size() / 16; ++i) {
+      const Vec3d from = i % 3 == 0 ? box.center() : Vec3d(all.records[i].org);
+      const double spread = std::ldexp(1.0, -static_cast<int>(rng.below(5)));
+      const Vec3d aim = box.lo + box.extent() * rng.uniform(0, 1);
+      for (int k = 0; k < 64; ++k) {
+        Vec3d org = from;
+        if (i % 2 == 1) org[static_cast<int>(i / 2 % 3)] += 0.01 * rng.uniform(-1, 1);
+        const Vec3d off{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+        out.records.push_back(
+            {Vec3f(org), 0.0f, Vec3f(aim + spread * norm_max(box.extent()) * off - org), 4.0f});
+      }
+    }
+    return out;
+  }
+
   RayBatch batch() const {
     const auto* base = reinterpret_cast<const std::byte*>(records.data());
     constexpr std::size_t kStride = sizeof(Record);
@@ -232,6 +253,18 @@ TEST_P(WideKernels, AnswerFansOfFloatRaysLikeBvh) {
     SCOPED_TRACE(name);
     expect_like_bvh(scene, FloatRays::fans(set, *scene, 5),
                     {"wide_bvh:width=8", "wide_bvh:width=16", "wide_bvh:quality=high"});
+  }
+}
+
+/// What packets from one point take for granted.
+TEST_P(WideKernels, AnswerRaysFromPlacesLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:2", "gen:terrain:12", "gen:soup:2000"}) {
+    const auto scene = std::make_shared<const Scene>(load_scene_data(name));
+    const RaySet set = adversarial_rays(*scene, kManyRays, 83);
+    SCOPED_TRACE(name);
+    expect_like_bvh(scene, FloatRays::from_places(set, *scene, 7),
+                    {"wide_bvh:width=8", "wide_bvh:width=16"});
   }
 }
 
