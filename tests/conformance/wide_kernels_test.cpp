@@ -1,8 +1,8 @@
 // wide_bvh with every instruction set of the machine and both widths, against brute force on the
 // adversarial scenes and against bvh with many rays on larger ones: the same bits.
 #include <cmath>
-#include <cstddef>
 #include <cstdlib>
+#include <tests/conformance/float_ray_set.h>
 #include <tests/conformance/oracle.h>
 #include <tests/conformance/scenes.h>
 
@@ -67,136 +67,12 @@ TEST_P(WideKernels, AnswerLikeBvhOnLargeScenes) {
   }
 }
 
-/// Unit and other float rays, which take a shorter way than doubles.
-struct FloatRays {
-  struct Record {
-    Vec3f org;
-    float t_min;
-    Vec3f dir;
-    float t_max;
-  };
-  std::vector<Record> records;
-
-  FloatRays() = default;
-  explicit FloatRays(const RaySet& set) {
-    for (std::size_t i = 0; i < set.rays.size(); ++i) {
-      Ray ray = set.rays[i];
-      const double size = length(ray.dir);
-      if (i % 3 != 0 && size > 0.0 && std::isfinite(size))
-        ray.dir = ray.dir / size, ray.t_min *= size, ray.t_max *= size;
-      if (i % 10 == 1) ray.dir.x = i % 20 == 1 ? -0.0 : 0.0;
-      records.push_back({Vec3f(ray.org), static_cast<float>(ray.t_min), Vec3f(ray.dir),
-                         static_cast<float>(ray.t_max)});
-    }
-  }
-  /// Blocks of 64 rays close to each of a set: from the same place, in the same direction, or
-  /// neither.
-  static FloatRays bundles(const RaySet& set, std::uint64_t seed) {
-    const FloatRays all(set);
-    FloatRays out;
-    Rng rng(seed);
-    for (std::size_t i = 0; i < all.records.size() / 64; ++i) {
-      const double spread = std::ldexp(1.0, -static_cast<int>(rng.below(14)));
-      const auto near = [&](const Vec3f& v, bool moves) {
-        if (!moves) return v;
-        const double size = spread * norm_max(Vec3d(v));
-        return Vec3f(Vec3d(v) + Vec3d{rng.uniform(-size, size), rng.uniform(-size, size),
-                                      rng.uniform(-size, size)});
-      };
-      const Record& base = all.records[i];
-      for (int k = 0; k < 64; ++k)
-        out.records.push_back({near(base.org, i % 3 != 0), base.t_min, near(base.dir, i % 3 != 1),
-                               k % 16 == 5 ? base.t_max / 2 : base.t_max});
-    }
-    return out;
-  }
-
-  /// Blocks of 64 short rays in all directions from about each place of a set, and blocks from
-  /// there to corners that follow each other in a mesh.
-  static FloatRays fans(const RaySet& set, const Scene& scene, std::uint64_t seed) {
-    const FloatRays all(set);
-    const TriangleMesh& mesh = scene.geometries().front().mesh;
-    const double size = norm_max(scene.total_bounds().extent());
-    FloatRays out;
-    Rng rng(seed);
-    const auto within = [&](double reach) {
-      return Vec3d{rng.uniform(-reach, reach), rng.uniform(-reach, reach),
-                   rng.uniform(-reach, reach)};
-    };
-    for (std::size_t i = 0; i < all.records.size() / 64; ++i) {
-      const Vec3f org = all.records[i].org;
-      const double reach = std::ldexp(size, -static_cast<int>(rng.below(9)));
-      const auto first =
-          static_cast<std::size_t>(rng.below(static_cast<std::uint32_t>(mesh.size())));
-      for (std::size_t k = 0; k < 64; ++k) {
-        if (i % 2 == 0)
-          out.records.push_back({Vec3f(Vec3d(org) + within(0.1 * reach)), 0.0f,
-                                 Vec3f(within(reach)), k % 16 == 5 ? 0.25f : 1.0f});
-        else
-          out.records.push_back({org, 0.0f,
-                                 Vec3f(mesh[(first + k / 3) % mesh.size()].b - Vec3d(org)),
-                                 k % 16 == 5 ? 1.0f : 2.0f});
-      }
-    }
-    return out;
-  }
-
-  /// Blocks of 64 rays to all of the scene from the places of a set, or from there along an axis.
-  static FloatRays from_places(const RaySet& set, const Scene& scene, std::uint64_t seed) {
-    const FloatRays all(set);
-    const Aabb box = scene.total_bounds();
-    FloatRays out;
-    Rng rng(seed);
-    for (std::size_t i = 0; i < all.records.size() / 16; ++i) {
-      const Vec3d from = i % 3 == 0 ? box.center() : Vec3d(all.records[i].org);
-      const double spread = std::ldexp(1.0, -static_cast<int>(rng.below(5)));
-      const Vec3d aim = box.lo + box.extent() * rng.uniform(0, 1);
-      for (int k = 0; k < 64; ++k) {
-        Vec3d org = from;
-        if (i % 2 == 1) org[static_cast<int>(i / 2 % 3)] += 0.01 * rng.uniform(-1, 1);
-        const Vec3d off{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
-        out.records.push_back(
-            {Vec3f(org), 0.0f, Vec3f(aim + spread * norm_max(box.extent()) * off - org), 4.0f});
-      }
-    }
-    return out;
-  }
-
-  RayBatch batch() const {
-    const auto* base = reinterpret_cast<const std::byte*>(records.data());
-    constexpr std::size_t kStride = sizeof(Record);
-    RayBatch batch;
-    batch.org = {base + offsetof(Record, org), records.size(), kStride, false};
-    batch.dir = {base + offsetof(Record, dir), records.size(), kStride, false};
-    batch.t_min = ScalarView{base + offsetof(Record, t_min), kStride, false};
-    batch.t_max = ScalarView{base + offsetof(Record, t_max), kStride, false};
-    return batch;
-  }
-};
-
-void expect_like_bvh(const std::shared_ptr<const Scene>& scene, const FloatRays& rays,
-                     std::initializer_list<const char*> specs) {
-  const std::size_t n = rays.records.size();
-  std::vector<Hit> expected(n), got(n);
-  std::vector<std::uint8_t> any(n);
-  const BatchReport report = build(scene, "bvh")->closest_hit(rays.batch(), expected);
-  for (const char* spec : specs) {
-    const auto wide = build(scene, spec);
-    EXPECT_EQ(wide->closest_hit(rays.batch(), got).invalid_rays, report.invalid_rays);
-    wide->any_hit(rays.batch(), any);
-    for (std::size_t i = 0; i < n; ++i) {
-      ASSERT_TRUE(have_same_bits(got[i], expected[i])) << spec << " ray " << i;
-      ASSERT_EQ(any[i] != 0, expected[i].is_hit()) << spec << " ray " << i;
-    }
-  }
-}
-
 TEST_P(WideKernels, AnswerFloatRaysLikeBvh) {
   const ForcedIsa forced(GetParam().c_str());
   for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
     SCOPED_TRACE(name);
-    expect_like_bvh(scene, FloatRays(adversarial_rays(*scene, kManyRays, 78)),
+    expect_like_bvh(scene, FloatRaySet(adversarial_rays(*scene, kManyRays, 78)),
                     {"wide_bvh:width=8", "wide_bvh:width=8,batch=single", "wide_bvh:width=16",
                      "wide_bvh:quality=high"});
   }
@@ -208,7 +84,7 @@ TEST_P(WideKernels, AnswerBundlesOfFloatRaysLikeBvh) {
   for (const char* name : {"gen:icosphere:4", "gen:soup:3000", "gen:terrain:32"}) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
     SCOPED_TRACE(name);
-    expect_like_bvh(scene, FloatRays::bundles(adversarial_rays(*scene, kManyRays, 79), 80),
+    expect_like_bvh(scene, FloatRaySet::bundles(adversarial_rays(*scene, kManyRays, 79), 80),
                     {"wide_bvh:width=8", "wide_bvh:width=8,batch=single", "wide_bvh:width=16"});
   }
 }
@@ -240,7 +116,7 @@ TEST_P(WideKernels, TellCloseSheetsApartLikeBvh) {
   const ForcedIsa forced(GetParam().c_str());
   const auto scene = close_sheets();
   const RaySet set = adversarial_rays(*scene, kManyRays, 81);
-  for (const FloatRays& rays : {FloatRays::fans(set, *scene, 6), FloatRays::bundles(set, 82)})
+  for (const FloatRaySet& rays : {FloatRaySet::fans(set, *scene, 6), FloatRaySet::bundles(set, 82)})
     expect_like_bvh(scene, rays, {"wide_bvh:width=8", "wide_bvh:width=16"});
 }
 
@@ -251,7 +127,7 @@ TEST_P(WideKernels, AnswerFansOfFloatRaysLikeBvh) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
     const RaySet set = adversarial_rays(*scene, kManyRays, 80);
     SCOPED_TRACE(name);
-    expect_like_bvh(scene, FloatRays::fans(set, *scene, 5),
+    expect_like_bvh(scene, FloatRaySet::fans(set, *scene, 5),
                     {"wide_bvh:width=8", "wide_bvh:width=16", "wide_bvh:quality=high"});
   }
 }
@@ -275,8 +151,8 @@ std::shared_ptr<const Scene> floor_of_tiles() {
 
 /// Blocks of 64 rays from one point above the floor, some down to it, some beyond the horizon: det
 /// of a triangle has both signs.
-FloatRays around_the_horizon(std::uint64_t seed) {
-  FloatRays out;
+FloatRaySet around_the_horizon(std::uint64_t seed) {
+  FloatRaySet out;
   Rng rng(seed);
   for (int block = 0; block < 400; ++block) {
     const double height = std::ldexp(1.0, -static_cast<int>(rng.below(8)));
@@ -306,7 +182,7 @@ TEST_P(WideKernels, AnswerRaysFromPlacesLikeBvh) {
     const auto scene = std::make_shared<const Scene>(load_scene_data(name));
     const RaySet set = adversarial_rays(*scene, kManyRays, 83);
     SCOPED_TRACE(name);
-    expect_like_bvh(scene, FloatRays::from_places(set, *scene, 7),
+    expect_like_bvh(scene, FloatRaySet::from_places(set, *scene, 7),
                     {"wide_bvh:width=8", "wide_bvh:width=16"});
   }
 }
