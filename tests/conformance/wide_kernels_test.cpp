@@ -187,6 +187,22 @@ TEST_P(WideKernels, AnswerRaysFromPlacesLikeBvh) {
   }
 }
 
+/// An origin that all rays share in memory, too: nothing lies behind it.
+TEST_P(WideKernels, AnswerRaysOfOneStoredOriginLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  const auto scene = std::make_shared<const Scene>(load_scene_data("gen:icosphere:3"));
+  const std::vector<Vec3f> org(1, Vec3f(0.1f, 0.2f, -0.3f));
+  const FloatRaySet set(adversarial_rays(*scene, 500, 87));
+  RayBatch batch = set.batch();
+  batch.org = {reinterpret_cast<const std::byte*>(org.data()), set.records.size(), 0, false};
+  batch.t_min = batch.t_max = {};
+  std::vector<Hit> expected(set.records.size()), got(set.records.size());
+  build(scene, "bvh")->closest_hit(batch, expected);
+  build(scene, "wide_bvh")->closest_hit(batch, got);
+  for (std::size_t i = 0; i < got.size(); ++i)
+    ASSERT_TRUE(have_same_bits(got[i], expected[i])) << i;
+}
+
 INSTANTIATE_TEST_SUITE_P(Isa, WideKernels, testing::ValuesIn(isas()),
                          [](const testing::TestParamInfo<std::string>& i) { return i.param; });
 

@@ -2,7 +2,7 @@
 //
 // Four vectors at a time, by transposing what 16 bytes from each one's beginning hold: its three
 //   numbers and one more, which in records of eight numbers is the ray's t_min or t_max. Those 16
-//   bytes are the caller's, as the next ray begins at most 12 bytes before their end; the last ray
+//   bytes are the caller's, as the next ray begins at least 4 bytes further on; the last ray
 //   of a batch is copied first.
 // Per-target code: included under foreach_target, once per instruction set.
 #if defined(STRAHL_WIDE_TAKE_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -70,6 +70,7 @@ class Taking {
  private:
   HWY_INLINE void take_vectors(const FloatRays::Strided& vectors, bool is_joined,
                                WideRays::Row (&rows)[3], WideRays::Row& behind) const {
+    if (!is_joined && vectors.stride < sizeof(float)) return take_one_by_one(vectors, rows);
     const std::byte* begin = vectors.data + first_ * vectors.stride;
     const std::byte* last = begin + last_ * vectors.stride;
     Quad copy{};
@@ -82,6 +83,16 @@ class Taking {
       for (std::uint32_t k = 0; k < 4; ++k)
         quads[k] = i + k < last_ ? begin + (i + k) * vectors.stride : last;
       put_transposed(quads, rows[0] + i, rows[1] + i, rows[2] + i, behind + i);
+    }
+  }
+
+  /// Where the next ray's vector is no further on, one vector of all rays say.
+  HWY_INLINE void take_one_by_one(const FloatRays::Strided& vectors,
+                                  WideRays::Row (&rows)[3]) const {
+    for (std::uint32_t i = 0; i < padded_; ++i) {
+      float v[3];
+      std::memcpy(v, vectors.data + (first_ + std::min(i, last_)) * vectors.stride, sizeof v);
+      for (int a = 0; a < 3; ++a) rows[a][i] = v[a];
     }
   }
 
