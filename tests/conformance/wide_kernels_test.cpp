@@ -203,6 +203,39 @@ TEST_P(WideKernels, AnswerRaysOfOneStoredOriginLikeBvh) {
     ASSERT_TRUE(have_same_bits(got[i], expected[i])) << i;
 }
 
+/// The triangles of a scene of one mesh, its vertices moved a little to where no floats are.
+std::shared_ptr<const Scene> between_floats(const std::string& name) {
+  const SceneData from = load_scene_data(name);
+  const TriangleMesh& mesh = from.geometries.at(0).mesh;
+  Rng rng(88);
+  std::vector<Vec3d> vertices;
+  for (std::size_t i = 0; i < mesh.vertices.count; ++i) {
+    const Vec3d nudge{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)};
+    vertices.push_back(mesh.vertices[i] + nudge * 1e-9);
+  }
+  std::vector<std::uint32_t> indices;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const IndexView::Triple t = mesh.triangles[i];
+    for (const std::uint64_t corner : {t.a, t.b, t.c})
+      indices.push_back(static_cast<std::uint32_t>(corner));
+  }
+  SceneData data;
+  data.geometries.emplace_back().mesh = make_mesh(std::move(vertices), std::move(indices));
+  return std::make_shared<const Scene>(std::move(data));
+}
+
+/// Blocks hold rounded corners there; the t of hits is that of the scene's own.
+TEST_P(WideKernels, AnswerFloatRaysInScenesOfDoublesLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const char* name : {"gen:icosphere:4", "gen:terrain:32"}) {
+    const auto scene = between_floats(name);
+    const RaySet set = adversarial_rays(*scene, kManyRays, 89);
+    SCOPED_TRACE(name);
+    for (const FloatRaySet& rays : {FloatRaySet(set), FloatRaySet::bundles(set, 90)})
+      expect_like_bvh(scene, rays, {"wide_bvh:width=8", "wide_bvh:width=16,batch=single"});
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Isa, WideKernels, testing::ValuesIn(isas()),
                          [](const testing::TestParamInfo<std::string>& i) { return i.param; });
 

@@ -84,13 +84,27 @@ class WideFloatTrace {
 
   void settle_all() {
     alignas(64) double t[kWideBlock];
-    const WideSettled settled = kernel_.settle(tree_, rays_, known_, t);
+    WideSettled settled = kernel_.settle(tree_, rays_, known_, t);
+    if (!tree_.has_exact_corners && settled.left != 0) settled = settle_doubles(settled.left, t);
     for (std::uint64_t rest = settled.certain; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       take_candidate(i, t[i]);
     }
     for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
       settle(static_cast<std::uint32_t>(std::countr_zero(rest)));
+  }
+
+  /// The canonical t of candidates whose corners are the scene's only.
+  WideSettled settle_doubles(std::uint64_t candidates, double* t) {
+    WideCorners corners;
+    for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+      TriangleVertices triangle;
+      prims_.scene().triangle(known_.reference[i], triangle);
+      corners.put(i, triangle);
+    }
+    const std::uint64_t certain = kernel_.settle_given(rays_, corners, candidates, t);
+    return {certain, candidates & ~certain};
   }
 
   static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {

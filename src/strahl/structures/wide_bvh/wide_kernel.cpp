@@ -38,6 +38,7 @@ void add_flight(WideKernel& kernel) {
 WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
   kernel.isa = isa, kernel.prepare = &prepare, kernel.settle = &settle;
+  kernel.settle_given = &settle_given;
   kernel.best_width = HWY_MAX_BYTES >= 64 ? 16 : 8;
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);

@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 
+#include <strahl/geometry/mesh.h>
 #include <strahl/query/float_rays.h>
 #include <strahl/structures/wide_bvh/wide_ray.h>
 #include <strahl/structures/wide_bvh/wide_tree.h>
@@ -69,6 +70,18 @@ struct WideSettled {
   std::uint64_t certain, left;
 };
 
+/// Corners of what rays of a block hit, a row per coordinate (a.x, a.y, a.z, b.x, ...), a column
+/// per ray; only those put into it are there.
+struct WideCorners {
+  alignas(64) double rows[9][kWideBlock];
+
+  void put(std::uint32_t ray, const TriangleVertices& triangle) {
+    int row = 0;
+    for (const Vec3d* corner : {&triangle.a, &triangle.b, &triangle.c})
+      for (int axis = 0; axis < 3; ++axis) rows[row++][ray] = (*corner)[axis];
+  }
+};
+
 /// The traversals of one instruction set.
 struct WideKernel {
   const char* isa = "";
@@ -80,6 +93,9 @@ struct WideKernel {
   /// Canonical t of candidates: wide_settle-inl.h.
   WideSettled (*settle)(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
                         double* t) = nullptr;
+  /// The same for the corners given. Returns bits of candidates whose t is certain.
+  std::uint64_t (*settle_given)(const WideRays& rays, const WideCorners& corners,
+                                std::uint64_t candidates, double* t) = nullptr;
   /// All rays at once, for closest and any without counts; null where that does not pay.
   WideTraverse fly[2][2] = {};
   int best_width = 8;  ///< what width=auto builds for it

@@ -17,8 +17,8 @@ HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
 
-/// Corners of candidates, a row per coordinate, a lane per ray.
-struct CandidateCorners {
+/// Corners of candidates as blocks of the tree hold them.
+struct StoredCorners {
   alignas(64) float rows[9][kWideBlock];
 
   HWY_INLINE void put(const WideTree& tree, const WideAnswers& answers, std::uint32_t ray) {
@@ -37,10 +37,12 @@ class Settlement {
   using V = hn::Vec<D>;
   static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
 
-  Settlement(const WideRays& rays, const CandidateCorners& corners, std::uint32_t first)
+  /// @param corners nine rows of floats or doubles
+  template <class Row>
+  Settlement(const WideRays& rays, const Row* corners, std::uint32_t first)
       : org_(load(rays.org, first)), dir_(load(rays.given, first)) {
-    const V3 a = load(corners.rows, first);
-    ab_ = minus(load(corners.rows + 3, first), a), ac_ = minus(load(corners.rows + 6, first), a);
+    const V3 a = load(corners, first);
+    ab_ = minus(load(corners + 3, first), a), ac_ = minus(load(corners + 6, first), a);
     to_a_ = minus(a, org_);
   }
 
@@ -61,11 +63,10 @@ class Settlement {
   };
   template <class Row>
   HWY_INLINE static V3 load(const Row* rows, std::uint32_t first) {
-    const auto wide = [&](const Row& row) {
-      return hn::PromoteTo(D(), hn::Load(DF(), row + first));
-    };
-    return {wide(rows[0]), wide(rows[1]), wide(rows[2])};
+    return {wide(rows[0] + first), wide(rows[1] + first), wide(rows[2] + first)};
   }
+  HWY_INLINE static V wide(const float* row) { return hn::PromoteTo(D(), hn::Load(DF(), row)); }
+  HWY_INLINE static V wide(const double* row) { return hn::Load(D(), row); }
   HWY_INLINE static V3 minus(const V3& a, const V3& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
   }
@@ -100,23 +101,35 @@ inline std::uint64_t candidates_of(const WideAnswers& answers) {
   return bits;
 }
 
-/// Canonical t of candidates; undefined for those left: all where the tree does not hold the very
-/// corners.
-inline WideSettled settle(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
-                          double* t) {
-  const std::uint64_t candidates = candidates_of(answers);
-  if (candidates == 0 || !tree.has_exact_corners) return {0, candidates};
-  CandidateCorners corners;
-  for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1)
-    corners.put(tree, answers, static_cast<std::uint32_t>(__builtin_ctzll(rest)));
+/// Canonical t of candidates with these corners.
+/// @return bits of those whose t is certain; of the others it is undefined
+template <class Row>
+HWY_INLINE std::uint64_t settle_rows(const WideRays& rays, const Row* corners,
+                                     std::uint64_t candidates, double* t) {
   std::uint64_t certain = 0;
   constexpr std::uint64_t kGroup = (std::uint64_t{1} << Settlement::kLanes) - 1;
   for (std::uint32_t first = 0; first < kWideBlock; first += Settlement::kLanes) {
     if ((candidates >> first & kGroup) == 0) continue;
     certain |= std::uint64_t{Settlement(rays, corners, first).run(t + first)} << first;
   }
-  certain &= candidates;
+  return certain & candidates;
+}
+
+/// The corners are in the tree where it holds the very corners, else none is certain.
+inline WideSettled settle(const WideTree& tree, const WideRays& rays, const WideAnswers& answers,
+                          double* t) {
+  const std::uint64_t candidates = candidates_of(answers);
+  if (candidates == 0 || !tree.has_exact_corners) return {0, candidates};
+  StoredCorners corners;
+  for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1)
+    corners.put(tree, answers, static_cast<std::uint32_t>(__builtin_ctzll(rest)));
+  const std::uint64_t certain = settle_rows(rays, corners.rows, candidates, t);
   return {certain, candidates & ~certain};
+}
+
+inline std::uint64_t settle_given(const WideRays& rays, const WideCorners& corners,
+                                  std::uint64_t candidates, double* t) {
+  return settle_rows(rays, corners.rows, candidates, t);
 }
 
 }  // namespace HWY_NAMESPACE
