@@ -8,8 +8,10 @@
 #include <strahl/base/error.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 
-// Two sets of extensions that the kernels have no use for.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// Sets of extensions that the kernels have no use for, and those whose registers have no size known
+// to the compiler: they cannot be members.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "strahl/structures/wide_bvh/wide_kernel.cpp"
 #include <hwy/foreach_target.h>
