@@ -44,6 +44,23 @@ check_sources() {
   tools/check_headers.py
 }
 
+# wide_bvh on another processor: NEON, under qemu-user.
+test_neon() {
+  scripts/setup_arm64.sh
+  configure neon
+  cmake --build --preset neon -j "$jobs" --target strahl_cli strahl_test_conformance
+  rm -rf build/neon/test_results
+  GTEST_FILTER='*WideKernels*:*wide_bvh*' ctest --preset neon -R conformance
+  tested+=(build/neon)
+}
+
+# strahl_of <preset> <argument...>: runs the command line of that build.
+strahl_of() {
+  local emulator=()
+  [ "$1" != neon ] || emulator=(qemu-aarch64 -L build/arm64-sysroot)
+  "${emulator[@]}" "build/$1/bin/strahl" "${@:2}"
+}
+
 # The files that different builds write for the same rays must be the same bytes.
 compare_builds() {
   local scene spec preset out=build/compare
@@ -51,9 +68,9 @@ compare_builds() {
   for scene in gen:balls:2 gen:tetra:4 gen:teapot:3; do
     build/release/bin/strahl info $scene --json > $out/info.json
     tools/demo_rays.py $out/info.json $out/rays.npy 20000
-    for spec in brute_force grid kd_tree bvh; do
+    for spec in brute_force grid kd_tree bvh wide_bvh; do
       for preset in "$@"; do
-        "build/$preset/bin/strahl" query $scene --rays $out/rays.npy --structure $spec --threads 2 \
+        strahl_of "$preset" query $scene --rays $out/rays.npy --structure $spec --threads 2 \
           -o "$out/$preset.npz" > /dev/null
         cmp "$out/$preset.npz" "$out/$1.npz"
       done
@@ -98,7 +115,8 @@ else
   step "release build and tests (clang)" run_preset clang
   step "dev build and tests (clang)" run_preset clang-dev
   step "thread sanitizer" run_preset tsan
-  step "builds compared" compare_builds release dev clang clang-dev
+  step "wide_bvh on ARM" test_neon
+  step "builds compared" compare_builds release dev clang clang-dev neon
   step "clang-tidy" tools/run_tidy.sh
   step "fuzzers, 60 s each" fuzz
 fi

@@ -105,7 +105,8 @@ struct WideKernel {
   }
 };
 
-/// Kernels of this build that this processor runs, best first; the last is "scalar".
+/// Kernels of this build that this processor runs, best first; the last is the one that all of its
+/// kind run: "scalar", on 64-bit ARM "neon".
 std::span<const WideKernel* const> wide_kernels();
 
 /// The kernel of that name, or the best for an empty one.
