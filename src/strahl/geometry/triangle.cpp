@@ -2,6 +2,7 @@
 #include <array>
 #include <initializer_list>
 
+#include <strahl/geometry/integer_edges.h>
 #include <strahl/geometry/triangle.h>
 #include <strahl/math/coordinate.h>
 #include <strahl/math/double_double.h>
@@ -47,6 +48,41 @@ int sign_on_edge_line(const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
   const auto c = difference(q, p);
   const auto m = exact_cross(exact(dir), c);
   return first_nonzero({m.x.sign(), m.y.sign(), m.z.sign(), -c.z.sign(), c.y.sign(), -c.x.sign()});
+}
+
+/// Whether dir x P is 0, P = point - org. Sure when true: the products are exact for directions of
+/// 24 bits and P of 29, as float32 coordinates give them.
+inline bool passes_exactly(const Vec3d& dir, const Vec3d& org, const Vec3d& point, const Vec3d& P) {
+  const bool is_along =
+      (dir.y * P.z == dir.z * P.y) & (dir.z * P.x == dir.x * P.z) & (dir.x * P.y == dir.y * P.x);
+  if (!is_along) return false;
+  bool is_exact = Vec3d(Vec3f(dir)) == dir;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double scaled = 0x1.000001p24 * P[axis];
+    is_exact &= scaled - (scaled - P[axis]) == P[axis];
+    is_exact &= two_sum(point[axis], -org[axis]).low == 0.0;
+  }
+  return is_exact;
+}
+
+/// The sign of the first component of P x Q that is not 0; 0 where rounding leaves it uncertain.
+int certain_normal_sign(const Vec3d& P, const Vec3d& Q) {
+  for (int x = 0; x < 3; ++x) {
+    const int y = (x + 1) % 3, z = (x + 2) % 3;
+    const double a = P[y] * Q[z], b = P[z] * Q[y];
+    // Differences, products and their difference: four roundings at most, none of zeros.
+    if (a == 0.0 && b == 0.0) continue;
+    return std::abs(a - b) > 8 * 0x1p-53 * (std::abs(a) + std::abs(b)) ? sign(a - b) : 0;
+  }
+  return 0;
+}
+
+/// The sign of an edge with an end on the ray's line, where e is 0 and that of the next terms is
+/// certain; else 0. Rays aimed at vertices need nothing wider than this.
+int sign_at_vertex(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q,
+                   const Vec3d& P, const Vec3d& Q) {
+  if (!passes_exactly(dir, org, p, P) && !passes_exactly(dir, org, q, Q)) return 0;
+  return certain_normal_sign(P, Q);
 }
 
 /// numerator / denominator when both are certain to 2^-42, else empty.
@@ -145,6 +181,47 @@ int orientation_2d(const Vec3d& p, const Vec3d& q, const Vec3d& r, int axis) {
       .sign();
 }
 
+/// The sign of an edge value where a bound of its error tells, the ray's or that of the edge; else
+/// 0.
+int filtered_sign(const ExactRay& ray, const Vec3d& p, const Vec3d& q, double e) {
+  if (std::abs(e) > ray.edge_error) return sign(e);
+  const Vec3d P = p - ray.org, Q = q - ray.org;
+  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * (norm_max(P) * norm_max(Q))) return sign(e);
+  return sign_at_vertex(ray.org, ray.dir, p, q, P, Q);
+}
+
+/// Signs of the edges of a triangle.
+struct EdgeSigns {
+  int ab, ca, bc;
+
+  bool has(int s) const { return ab == s || ca == s || bc == s; }
+  /// Replaces zeros.
+  template <class Ab, class Ca, class Bc>
+  void complete(Ab exact_ab, Ca exact_ca, Bc exact_bc) {
+    if (ab == 0) ab = exact_ab();
+    if (ca == 0) ca = exact_ca();
+    if (bc == 0) bc = exact_bc();
+  }
+};
+
+/// The sign that the edges of a triangle share, if they do.
+/// @param e filtered values of ab, ca, bc
+std::optional<int> common_sign(const ExactRay& ray, const TriangleVertices& tri, const Vec3d& e) {
+  EdgeSigns signs{filtered_sign(ray, tri.a, tri.b, e.x), filtered_sign(ray, tri.c, tri.a, e.y),
+                  filtered_sign(ray, tri.b, tri.c, e.z)};
+  if (signs.has(0) && !(signs.has(1) && signs.has(-1)))
+    if (const auto integers = IntegerEdges::make(ray.org, ray.dir, tri))
+      signs.complete([&] { return integers->ab(); }, [&] { return integers->ca(); },
+                     [&] { return integers->bc(); });
+  if (signs.has(1) && signs.has(-1)) return std::nullopt;
+  const auto exact = [&](const Vec3d& p, const Vec3d& q) {
+    return [&] { return exact_edge_sign(ray.org, ray.dir, p, q); };
+  };
+  signs.complete(exact(tri.a, tri.b), exact(tri.c, tri.a), exact(tri.b, tri.c));
+  if (signs.has(0) || (signs.has(1) && signs.has(-1))) return std::nullopt;
+  return signs.ab;
+}
+
 /// A nearly convex polygon. Rounding may bend it, so a cut can replace each outside corner by two:
 /// 3 corners become at most 4, 6, 9, 13, 19, 28 in six cuts.
 struct Polygon {
@@ -177,21 +254,13 @@ int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Ve
   return first != 0 ? first : sign_on_edge_line(dir, p, q);
 }
 
-int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
-  const double reach = norm_max(p - ray.org) * norm_max(q - ray.org);
-  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * reach) return sign(e);
-  return exact_edge_sign(ray.org, ray.dir, p, q);
-}
-
-std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const TriangleVertices& tri,
+std::optional<TriangleHit> intersect_uncertain(const ExactRay& ray, const TriangleVertices& tri,
                                                const Vec3d& edge_values) {
-  const int ab = edge_sign(ray, tri.a, tri.b, edge_values.x);
-  const int ca = edge_sign(ray, tri.c, tri.a, edge_values.y);
-  if (ab != ca || ab == 0) return std::nullopt;
-  if (edge_sign(ray, tri.b, tri.c, edge_values.z) != ab) return std::nullopt;
+  const std::optional<int> side = common_sign(ray, tri, edge_values);
+  if (!side) return std::nullopt;
   const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
   if (!t) return std::nullopt;
-  return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
+  return TriangleHit{*t + 0.0, *side < 0};  // -0 + 0 is +0
 }
 
 std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {

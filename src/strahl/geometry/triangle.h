@@ -6,7 +6,7 @@
 //   [Edelsbrunner1990]).
 // Filter: e is evaluated as (dir x P) . Q. Each of its six monomials d_i P_j Q_k carries at most
 //   seven roundings (P, Q, product, difference, product, two sums), so with M >= |P|, |Q| the error
-//   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = PreparedRay::edge_error. A larger |e|
+//   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = ExactRay::edge_error. A larger |e|
 //   has a certain sign. Else the bound is sharpened to this edge, then the sign is computed
 //   exactly.
 // Parameter: t = (A . N) / (dir . N), N = (b - a) x (c - a). A . N and dir . N carry at most eight
@@ -56,17 +56,6 @@ TriangleDefect find_defect(const TriangleVertices& tri);
 /// Conservative box of the part of the triangle inside box; empty only if that part is empty.
 Aabb clip(const TriangleVertices& tri, const Aabb& box);
 
-/// Sharper bound and exact evaluation for an edge whose filtered value is uncertain.
-/// @param e the filtered value, P and Q the rounded differences it was made of
-int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e);
-
-/// The sign of an edge value: certain, or resolved.
-inline int edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
-  if (e > ray.edge_error) return 1;
-  if (e < -ray.edge_error) return -1;
-  return resolve_edge_sign(ray, p, q, e);
-}
-
 /// Canonical t of a triangle known to be crossed; empty when not finite.
 /// @param A tri.a - org
 inline std::optional<double> crossing_t(const Vec3d& org, const Vec3d& dir,
@@ -83,14 +72,14 @@ inline std::optional<double> crossing_t(const Vec3d& org, const Vec3d& dir,
 }
 
 /// intersect() where a sign of the three edge values (of ab, ca, bc) is uncertain.
-std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const TriangleVertices& tri,
+std::optional<TriangleHit> intersect_uncertain(const ExactRay& ray, const TriangleVertices& tri,
                                                const Vec3d& edge_values);
 
 /// The crossing of the ray's whole line with the triangle, if any; the caller checks the interval.
 /// Without a branch per sign: signs are as good as random, and a mispredicted branch costs more
 /// than the third edge of a triangle that the first two already rule out. The vertices must be
 /// finite.
-inline std::optional<TriangleHit> intersect(const PreparedRay& ray, const TriangleVertices& tri) {
+inline std::optional<TriangleHit> intersect(const ExactRay& ray, const TriangleVertices& tri) {
   const Vec3d A = tri.a - ray.org, B = tri.b - ray.org, C = tri.c - ray.org;
   const Vec3d dir_a = cross(ray.dir, A);
   const Vec3d e{dot(dir_a, B), -dot(dir_a, C), dot(cross(ray.dir, B), C)};

@@ -12,7 +12,7 @@ bool is_valid(const Ray& ray) {
 }
 
 PreparedRay::PreparedRay(const Ray& ray, const RayFrame& frame)
-    : org(ray.org), dir(ray.dir), t_min(ray.t_min), t_max(ray.t_max) {
+    : ExactRay(ray.org, ray.dir, frame.bounds), t_min(ray.t_min), t_max(ray.t_max) {
   const double widen = frame.widen_absolute + frame.widen_per_org * norm_max(org);
   for (int axis = 0; axis < 3; ++axis) {
     negative[axis] = dir[axis] < 0.0;
@@ -22,9 +22,6 @@ PreparedRay::PreparedRay(const Ray& ray, const RayFrame& frame)
   }
   t_enter = lowered(t_min, kHitMargin);
   t_exit = std::min(raised(t_max, kHitMargin), std::numeric_limits<double>::max());
-  // 16 u |dir|_1 M^2, M >= |vertex - org| for every vertex: see geometry/triangle.h.
-  const double reach = norm_max(max(abs(frame.bounds.lo - org), abs(frame.bounds.hi - org)));
-  edge_error = 16 * 0x1p-53 * norm1(dir) * reach * reach;
 }
 
 }  // namespace strahl

@@ -33,14 +33,26 @@ struct RayFrame {
   double widen_per_org = 0.0;   ///< per unit of the origin's largest coordinate
 };
 
-/// A ray with its per-ray constants. Axis a's near plane is hit first: box.hi where dir[a] < 0.
-struct PreparedRay {
+/// What the exact test of triangles needs of a ray.
+struct ExactRay {
   Vec3d org, dir;
+  double edge_error;  ///< an edge value beyond it has a certain sign
+
+  ExactRay() = default;
+  /// @param bounds of all vertices that it will be tested with
+  ExactRay(const Vec3d& o, const Vec3d& d, const Aabb& bounds) : org(o), dir(d) {
+    // 16 u |dir|_1 M^2, M >= |vertex - org| for every vertex: see geometry/triangle.h.
+    const double reach = norm_max(max(abs(bounds.lo - org), abs(bounds.hi - org)));
+    edge_error = 16 * 0x1p-53 * norm1(dir) * reach * reach;
+  }
+};
+
+/// A ray with its per-ray constants. Axis a's near plane is hit first: box.hi where dir[a] < 0.
+struct PreparedRay : ExactRay {
   Vec3d inv_dir;            ///< 1/dir; +inf where dir is 0 or -0
   Vec3d near_org, far_org;  ///< org moved so that near planes come earlier, far planes later
   double t_min, t_max;      ///< as given
   double t_enter, t_exit;   ///< [t_min, t_max] widened by kHitMargin, t_exit finite
-  double edge_error;        ///< an edge value beyond it has a certain sign
   bool negative[3];         ///< dir[a] < 0
 
   PreparedRay() = default;

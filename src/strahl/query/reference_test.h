@@ -19,7 +19,7 @@ bool is_visible(const Scene& scene, const Part& part, const Q& query) {
 }
 
 template <Query Q>
-bool offer_triangle(const TriangleVertices& tri, const PreparedRay& ray, Hit hit, Q& query) {
+bool offer_triangle(const TriangleVertices& tri, const ExactRay& ray, Hit hit, Q& query) {
   if constexpr (Q::kTestsOrigin)
     if (is_on_triangle(ray.org, tri)) return query.origin_on_surface();
   const std::optional<TriangleHit> crossing = intersect(ray, tri);

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include <strahl/query/reference_test.h>
 #include <strahl/structures/wide_bvh/wide_trace.h>
 
 namespace strahl {
@@ -114,13 +115,11 @@ class WideFloatTrace {
   bool decide(std::uint32_t i, WideId leaf, std::uint32_t lanes) {
     if constexpr (!kIsAny)
       if (known_.candidate[i] != 0) settle(i);
-    const PreparedRay& ray = prepared(i);
-    Q query({ray.org, ray.dir, ray.t_min, ray.t_max}, HitFilter{});
+    const Ray ray = given_ray(i);
+    Q query(ray, HitFilter{});
     if constexpr (!kIsAny) query.best = answers_[i];
-    const std::uint32_t* references = reference_row(tree_.at(leaf), lanes_of(leaf));
-    NoCounters uncounted;  // the kernel has counted the lanes
-    for (; lanes != 0; lanes &= lanes - 1)
-      if (prims_.visit(references[std::countr_zero(lanes)], ray, query, uncounted)) break;
+    tree_.has_exact_corners ? offer_stored(ray, leaf, lanes, query)
+                            : offer_scene(i, leaf, lanes, query);
     if constexpr (kIsAny) {
       answers_[i] = std::uint8_t{query.found};
       return query.found;
@@ -131,6 +130,26 @@ class WideFloatTrace {
     }
   }
 
+  /// The exact test of lanes with the corners of the block, which are at hand.
+  void offer_stored(const Ray& ray, WideId leaf, std::uint32_t lanes, Q& query) {
+    const ExactRay exact(ray.org, ray.dir, prims_.scene().world_frame().bounds);
+    const std::byte* at = tree_.at(leaf);
+    const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      const Hit blank = prims_.blank_hit(references[lane]);
+      if (offer_triangle(stored_corners(at, count, lane), exact, blank, query)) return;
+    }
+  }
+
+  /// The same with the things of the scene.
+  void offer_scene(std::uint32_t i, WideId leaf, std::uint32_t lanes, Q& query) {
+    const std::uint32_t* references = reference_row(tree_.at(leaf), lanes_of(leaf));
+    NoCounters uncounted;  // the kernel has counted the lanes
+    for (; lanes != 0; lanes &= lanes - 1)
+      if (prims_.visit(references[std::countr_zero(lanes)], prepared(i), query, uncounted)) return;
+  }
+
   /// Bounds around the frame's t of a hit; they stay where there is none.
   void narrow(std::uint32_t i, double t) {
     if (!(t < double{kWideMostT} / 2)) return;
@@ -138,13 +157,16 @@ class WideFloatTrace {
     known_.lower[i] = float_a_little_below(static_cast<float>(t));
   }
 
+  Ray given_ray(std::uint32_t i) const {
+    return {Vec3d(given_.org(first_ + i)), Vec3d(given_.dir(first_ + i)),
+            double{given_.t_min(first_ + i)}, double{given_.t_max(first_ + i)}};
+  }
+
   const PreparedRay& prepared(std::uint32_t i) {
     if (prepared_index_ != first_ + i) {
       prepared_index_ = first_ + i;
       prims_.begin_ray();
-      const Ray ray{Vec3d(given_.org(first_ + i)), Vec3d(given_.dir(first_ + i)),
-                    double{given_.t_min(first_ + i)}, double{given_.t_max(first_ + i)}};
-      prepared_.emplace(ray, prims_.scene().world_frame());
+      prepared_.emplace(given_ray(i), prims_.scene().world_frame());
     }
     return *prepared_;
   }
