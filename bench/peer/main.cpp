@@ -9,7 +9,7 @@
 // streams, the latter two also called coherent. --build: times of builds only, of the peer's HIGH
 // and MEDIUM and of wide_bvh's default and quality=fast.
 #include <algorithm>
-#include <bench/peer/embree_scene.h>
+#include <apps/strahl/peer/embree_scene.h>
 #include <charconv>
 #include <cmath>
 #include <cstdio>

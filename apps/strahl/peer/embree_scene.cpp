@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <bench/peer/embree_scene.h>
+#include <apps/strahl/peer/embree_scene.h>
 #include <cstring>
 #include <ctime>
 #include <iterator>

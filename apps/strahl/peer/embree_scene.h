@@ -1,11 +1,11 @@
-// bench/peer/embree_scene.h - the peer: an Embree 3 scene of the same triangles, asked ray by ray
-// or by each of its interfaces for many.
+// apps/strahl/peer/embree_scene.h - the peer: an Embree 3 scene of the same triangles, asked ray by
+// ray or by each of its interfaces for many.
 //
 // As fast as it goes: quality HIGH, not robust, its own choice of instructions, subnormals flushed,
 // rays written with 16-byte stores (scalar stores would cost it failed store forwarding).
 #pragma once
 
-#include <bench/peer/float_rays.h>
+#include <apps/strahl/peer/float_rays.h>
 #include <cstdint>
 #include <memory>
 #include <span>
