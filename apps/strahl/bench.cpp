@@ -1,0 +1,112 @@
+// apps/strahl/bench.cpp - `strahl bench`: the production path alone or against a peer.
+#include <apps/strahl/bench_race.h>
+#include <apps/strahl/commands.h>
+#include <cstdlib>
+#include <filesystem>
+
+#include <strahl/catalog/catalog.h>
+#include <strahl/io/atomic_file.h>
+#include <strahl/structures/wide_bvh/wide_kernel.h>
+
+namespace strahl::cli {
+namespace {
+
+/// Scenes of many kinds that need no file: a height field, closed surfaces, parts of machines,
+/// repeated solids, and triangles without order.
+const std::vector<std::string>& default_scenes() {
+  static const std::vector<std::string> scenes{"gen:terrain:200", "gen:icosphere:5",
+                                               "gen:teapot:24",   "gen:gears:4",
+                                               "gen:tetra:8",     "gen:soup:50000"};
+  return scenes;
+}
+
+/// Both sides are held to one instruction set. Throws Error{usage}.
+void choose_isa(const BenchOptions& options) {
+  if (options.isa.empty()) return;
+  ::setenv("STRAHL_ISA", options.isa.c_str(), 1);
+  (void)wide_kernel_of_environment();
+}
+
+Json options_json(const BenchOptions& options) {
+  Json workloads = Json::array();
+  for (const WorkloadKind kind : options.workload_kinds()) workloads.push_back(name_of(kind));
+  return {{"structures", split_specs(options.specs)},
+          {"workloads", workloads},
+          {"peer", options.has_peer() ? Json(options.peer) : Json(nullptr)},
+          {"isa", wide_kernel_of_environment().isa},
+          {"size", options.size},
+          {"repeats", options.repeat},
+          {"seed", options.seed},
+          {"threads", options.threads}};
+}
+
+void finish(const BenchOptions& options, Session& session, const Json& document,
+            const std::string& text) {
+  if (!options.output.empty()) {
+    const std::filesystem::path folder(options.output);
+    std::filesystem::create_directories(folder);
+    write_text_file(folder / "bench.json", document.dump(2) + "\n");
+    write_text_file(folder / "bench.md", text);
+  }
+  session.finish_progress();
+  options.json ? print_json(document) : print_text(text);
+}
+
+int run_bench(const BenchOptions& options) {
+  if (options.has_peer()) peer::require_peer();
+  choose_isa(options);
+  Session session(options);
+  Json document = {
+      {"options", options_json(options)}, {"scenes", Json::array()}, {"results", Json::array()}};
+  for (const std::string& name : options.scenes.empty() ? default_scenes() : options.scenes)
+    race_scene(name, options, session, document);
+  document["summary"] = race_summary(document["results"]);
+  finish(options, session, document, race_markdown(document));
+  return kExitOk;
+}
+
+void add_race_options(CLI::App& command, BenchOptions& options) {
+  command.add_option("scenes", options.scenes, kSceneHelp)->type_name("SCENE...");
+  command.add_option("--peer", options.peer, "Race this one on the same rays: embree")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"embree"}));
+  command.add_option("--spec,--structures", options.specs, "Own structures (default: wide_bvh)")
+      ->type_name("SPEC,...");
+  command
+      .add_option("--workload,--workloads", options.workloads,
+                  "Sets of rays (default: primary,diffuse,shadow,ao,random)")
+      ->type_name("NAME,...");
+  command.add_option("--size", options.size, "Pixels of a side; other sets have as many rays")
+      ->check(CLI::Range(1, 8192));
+  command.add_option("--repeat", options.repeat, "Times that everything is measured")
+      ->check(CLI::Range(1, 1000));
+  command.add_option("--isa", options.isa, "Instruction set of both sides: avx512, avx2, sse4")
+      ->type_name("NAME");
+  command.add_option("--seed", options.seed, "Of the random numbers in rays");
+  command.add_option("-o,--output", options.output, "Folder for bench.json and bench.md")
+      ->type_name("DIR");
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, Runner& run) {
+  CLI::App* command =
+      app.add_subcommand("bench", "Speed of the production path, also against a peer");
+  command->footer(
+      "Rays are traced on one thread, exact hits on. Runs of both sides alternate; a ratio above "
+      "1\n"
+      "says that strahl is faster. api=single hands rays over one at a time on both sides,\n"
+      "api=batch many at a time, to the peer by its fastest interface for those rays.\n"
+      "Without SCENE some generated ones are raced.\n"
+      "Workloads: primary diffuse shadow ao random.\n"
+      "Examples:\n"
+      "  strahl bench\n"
+      "  strahl bench bunny.ply gen:terrain:300 --peer embree --json\n"
+      "  strahl bench bunny.ply --peer embree --isa avx2 --spec wide_bvh,wide_bvh:quality=high");
+  auto options = std::make_shared<BenchOptions>();
+  add_race_options(*command, *options);
+  add_common_options(*command, *options);
+  command->callback([=, &run] { run = [=] { return run_bench(*options); }; });
+}
+
+}  // namespace strahl::cli

@@ -1,0 +1,138 @@
+// apps/strahl/bench_test.cpp - `strahl bench`: what it prints, with and without a peer, and what it
+// refuses.
+#include <apps/strahl/bench_setup.h>
+#include <apps/strahl/run_test.h>
+#include <string>
+
+namespace strahl::cli {
+namespace {
+
+using test::Finished;
+
+constexpr const char* kTiny = " --size 16 --repeat 2 --json";
+
+/// Whether this program was built with a peer; its tests are skipped where it was not.
+bool has_peer() {
+  try {
+    peer::require_peer();
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+class BenchCommand : public test::CommandTest {
+ protected:
+  nlohmann::json bench(const std::string& arguments) const {
+    const Finished finished = run("bench " + arguments + kTiny);
+    EXPECT_EQ(finished.code, 0) << finished.err;
+    return finished.json();
+  }
+};
+
+void expect_estimate(const nlohmann::json& row, const std::string& name) {
+  EXPECT_GT(row[name + "_low"], 0.0) << row;
+  EXPECT_LE(row[name + "_low"], row[name]) << row;
+  EXPECT_LE(row[name], row[name + "_high"]) << row;
+}
+
+TEST(SpecFor, TakesSingleRaysOneAtATime) {
+  EXPECT_EQ(spec_for(OwnApi::single, "wide_bvh"), "wide_bvh:batch=single");
+  EXPECT_EQ(spec_for(OwnApi::single, "wide_bvh:quality=high"),
+            "wide_bvh:quality=high,batch=single");
+  EXPECT_EQ(spec_for(OwnApi::single, "wide_bvh:batch=interleaved"), "wide_bvh:batch=interleaved");
+  EXPECT_EQ(spec_for(OwnApi::single, "grid"), "grid");
+  EXPECT_EQ(spec_for(OwnApi::batch, "wide_bvh"), "wide_bvh");
+}
+
+TEST(MeanOf, IsGeometricAndLeavesOutRowsWithoutPeer) {
+  Json a, b, none;
+  add_estimate(a, "ratio", Estimate{1.0, 0.5, 2.0});
+  add_estimate(b, "ratio", Estimate{4.0, 2.0, 8.0});
+  add_estimate(none, "ratio", std::nullopt);
+  const std::optional<Estimate> mean = mean_of({&a, &none, &b}, "ratio");
+  ASSERT_TRUE(mean);
+  EXPECT_DOUBLE_EQ(mean->value, 2.0);
+  EXPECT_DOUBLE_EQ(mean->low, 1.0);
+  EXPECT_DOUBLE_EQ(mean->high, 4.0);
+  EXPECT_FALSE(mean_of({&none}, "ratio"));
+}
+
+TEST_F(BenchCommand, MeasuresAloneWithoutAPeer) {
+  const auto json = bench("gen:tetra:3 --spec wide_bvh,grid");
+  EXPECT_EQ(json["options"]["peer"], nullptr);
+  ASSERT_EQ(json["results"].size(), 5u * 2 * 2);
+  for (const auto& row : json["results"]) {
+    EXPECT_GT(row["mrays"], 0.0);
+    EXPECT_EQ(row["peer_mrays"], nullptr);
+    EXPECT_EQ(row["ratio"], nullptr);
+  }
+  EXPECT_EQ(json["scenes"][0]["builds"].size(), 2u);
+  EXPECT_EQ(json["summary"][0]["ratio"], nullptr);
+}
+
+TEST_F(BenchCommand, RacesThePeerOnTheSameRays) {
+  if (!has_peer()) GTEST_SKIP() << "built without Embree";
+  const auto json = bench("gen:terrain:40 gen:icosphere:3 --peer embree");
+  ASSERT_EQ(json["results"].size(), 2u * 5 * 2);
+  for (const auto& row : json["results"]) {
+    expect_estimate(row, "ratio");
+    EXPECT_GT(row["peer_mrays"], 0.0);
+    EXPECT_TRUE(row["api"] == "batch" || row["peer_api"] == "single") << row;
+    // A peer over other triangles or rays would differ nearly everywhere.
+    EXPECT_LE(row["differing_rays"], 2) << row;
+  }
+  ASSERT_EQ(json["summary"].size(), 2u * 6);
+  for (const auto& row : json["summary"]) expect_estimate(row, "ratio");
+  const auto& builds = json["scenes"][0]["builds"];
+  EXPECT_EQ(builds[1]["spec"], "embree");
+  EXPECT_GT(builds[1]["bytes_per_primitive"], 20.0);
+}
+
+TEST_F(BenchCommand, GivesThePeerInstancesInTheirPlaces) {
+  if (!has_peer()) GTEST_SKIP() << "built without Embree";
+  // One triangle under three nodes, two of them moved and scaled.
+  folder_.write("three.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+    "scenes": [{"nodes": [0, 1, 2]}],
+    "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [2, 0, 0], "scale": [3, 2, 1]},
+              {"mesh": 0, "translation": [0, -3, 1]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0.25]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAIA+"}]})");
+  const auto json = bench("three.gltf --peer embree --workloads primary,random");
+  EXPECT_EQ(json["scenes"][0]["primitives"], 3);
+  ASSERT_EQ(json["results"].size(), 4u);
+  for (const auto& row : json["results"]) EXPECT_LE(row["differing_rays"], 2) << row;
+}
+
+TEST_F(BenchCommand, WritesWhatItPrints) {
+  const auto json = bench("gen:tetra:2 --workload random -o out");
+  EXPECT_EQ(json, nlohmann::json::parse(folder_.read("out/bench.json")));
+  EXPECT_EQ(json["options"]["workloads"], (std::vector<std::string>{"random"}));
+  EXPECT_NE(folder_.read("out/bench.md").find("| gen:tetra:2 | random   | batch"),
+            std::string::npos)
+      << folder_.read("out/bench.md");
+}
+
+TEST_F(BenchCommand, AnEmptySceneIsNoError) {
+  folder_.write("empty.off", "OFF\n0 0 0\n");
+  const auto json = bench(std::string("empty.off") + (has_peer() ? " --peer embree" : ""));
+  for (const auto& row : json["results"]) EXPECT_GT(row["mrays"], 0.0);
+  EXPECT_EQ(json["scenes"][0]["primitives"], 0);
+}
+
+TEST_F(BenchCommand, RefusesWhatItCannotRace) {
+  expect_error("bench gen:tetra:2 --peer tinybvh", 2, "embree");
+  expect_error("bench gen:tetra:2 --isa mmx", 2, "mmx");
+  expect_error("bench gen:tetra:2 --workload whitted", 2, "whitted");
+  expect_error("bench gen:tetra:2 --workload sunny", 2, "sunny");
+  expect_error("bench gen:tetra:2 --spec no_tree", 2, "no_tree");
+  expect_error("bench missing.ply", 3, "missing.ply");
+  // Without Embree that is what it says, with it that Embree gets triangles only.
+  expect_error("bench gen:balls:1 --peer embree", 2, has_peer() ? "triangles only" : "Embree");
+}
+
+}  // namespace
+}  // namespace strahl::cli
