@@ -1,4 +1,5 @@
 // apps/strahl/bench.cpp - `strahl bench`: the production path alone or against a peer.
+#include <apps/strahl/bench_builds.h>
 #include <apps/strahl/bench_race.h>
 #include <apps/strahl/commands.h>
 #include <cstdlib>
@@ -13,11 +14,10 @@ namespace {
 
 /// Scenes of many kinds that need no file: a height field, closed surfaces, parts of machines,
 /// repeated solids, and triangles without order.
-const std::vector<std::string>& default_scenes() {
-  static const std::vector<std::string> scenes{"gen:terrain:200", "gen:icosphere:5",
-                                               "gen:teapot:24",   "gen:gears:4",
-                                               "gen:tetra:8",     "gen:soup:50000"};
-  return scenes;
+std::vector<std::string> scenes_of(const BenchOptions& options) {
+  if (!options.scenes.empty()) return options.scenes;
+  return {"gen:terrain:200", "gen:icosphere:5", "gen:teapot:24",
+          "gen:gears:4",     "gen:tetra:8",     "gen:soup:50000"};
 }
 
 /// Both sides are held to one instruction set. Throws Error{usage}.
@@ -52,16 +52,31 @@ void finish(const BenchOptions& options, Session& session, const Json& document,
   options.json ? print_json(document) : print_text(text);
 }
 
+/// Rays of every scene.
+std::string bench_rays(const BenchOptions& options, Session& session, Json& document) {
+  for (const std::string& name : scenes_of(options)) race_scene(name, options, session, document);
+  document["summary"] = race_summary(document["results"]);
+  return race_markdown(document);
+}
+
+std::string bench_builds(const BenchOptions& options, Session& session, Json& document) {
+  document["builds"] = Json::array();
+  for (const std::string& name : scenes_of(options)) race_builds(name, options, session, document);
+  document["builds_summary"] = builds_summary(document["builds"]);
+  return builds_markdown(document);
+}
+
 int run_bench(const BenchOptions& options) {
   if (options.has_peer()) peer::require_peer();
   choose_isa(options);
   Session session(options);
-  Json document = {
-      {"options", options_json(options)}, {"scenes", Json::array()}, {"results", Json::array()}};
-  for (const std::string& name : options.scenes.empty() ? default_scenes() : options.scenes)
-    race_scene(name, options, session, document);
-  document["summary"] = race_summary(document["results"]);
-  finish(options, session, document, race_markdown(document));
+  Json document = {{"options", options_json(options)},
+                   {"scenes", Json::array()},
+                   {"results", Json::array()},
+                   {"summary", Json::array()}};
+  const std::string text = options.with_builds ? bench_builds(options, session, document)
+                                               : bench_rays(options, session, document);
+  finish(options, session, document, text);
   return kExitOk;
 }
 
@@ -87,6 +102,11 @@ void add_race_options(CLI::App& command, BenchOptions& options) {
       ->type_name("DIR");
 }
 
+void add_part_options(CLI::App& command, BenchOptions& options) {
+  command.add_flag("--builds", options.with_builds,
+                   "Times of builds and speed of the trees instead: default and quality=fast");
+}
+
 }  // namespace
 
 void add_bench_command(CLI::App& app, Runner& run) {
@@ -102,9 +122,11 @@ void add_bench_command(CLI::App& app, Runner& run) {
       "Examples:\n"
       "  strahl bench\n"
       "  strahl bench bunny.ply gen:terrain:300 --peer embree --json\n"
-      "  strahl bench bunny.ply --peer embree --isa avx2 --spec wide_bvh,wide_bvh:quality=high");
+      "  strahl bench bunny.ply --peer embree --isa avx2 --spec wide_bvh,wide_bvh:quality=high\n"
+      "  strahl bench bunny.ply --peer embree --builds --threads 2");
   auto options = std::make_shared<BenchOptions>();
   add_race_options(*command, *options);
+  add_part_options(*command, *options);
   add_common_options(*command, *options);
   command->callback([=, &run] { run = [=] { return run_bench(*options); }; });
 }

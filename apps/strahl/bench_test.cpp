@@ -21,6 +21,8 @@ bool has_peer() {
   return true;
 }
 
+std::string peer_option() { return has_peer() ? " --peer embree" : ""; }
+
 class BenchCommand : public test::CommandTest {
  protected:
   nlohmann::json bench(const std::string& arguments) const {
@@ -30,7 +32,12 @@ class BenchCommand : public test::CommandTest {
   }
 };
 
+/// Null without a peer.
 void expect_estimate(const nlohmann::json& row, const std::string& name) {
+  if (!has_peer()) {
+    EXPECT_EQ(row[name], nullptr);
+    return;
+  }
   EXPECT_GT(row[name + "_low"], 0.0) << row;
   EXPECT_LE(row[name + "_low"], row[name]) << row;
   EXPECT_LE(row[name], row[name + "_high"]) << row;
@@ -107,6 +114,21 @@ TEST_F(BenchCommand, GivesThePeerInstancesInTheirPlaces) {
   for (const auto& row : json["results"]) EXPECT_LE(row["differing_rays"], 2) << row;
 }
 
+TEST_F(BenchCommand, ComparesBuildsAndTheirTrees) {
+  const auto json = bench(std::string("gen:terrain:30 --builds --threads 2") + peer_option());
+  EXPECT_EQ(json["results"].size(), 0u);
+  ASSERT_EQ(json["builds"].size(), 2u);
+  EXPECT_EQ(json["builds"][1]["spec"], "wide_bvh:quality=fast");
+  for (const char* part : {"builds", "builds_summary"}) {
+    for (const auto& row : json[part]) {
+      for (const char* ratio : {"time_ratio", "single_ratio", "batch_ratio"})
+        expect_estimate(row, ratio);
+    }
+  }
+  EXPECT_EQ(json["builds"][1]["peer_quality"], has_peer() ? nlohmann::json("MEDIUM") : nullptr);
+  EXPECT_GT(json["builds"][0]["seconds"], 0.0);
+}
+
 TEST_F(BenchCommand, WritesWhatItPrints) {
   const auto json = bench("gen:tetra:2 --workload random -o out");
   EXPECT_EQ(json, nlohmann::json::parse(folder_.read("out/bench.json")));
@@ -118,7 +140,7 @@ TEST_F(BenchCommand, WritesWhatItPrints) {
 
 TEST_F(BenchCommand, AnEmptySceneIsNoError) {
   folder_.write("empty.off", "OFF\n0 0 0\n");
-  const auto json = bench(std::string("empty.off") + (has_peer() ? " --peer embree" : ""));
+  const auto json = bench("empty.off" + peer_option());
   for (const auto& row : json["results"]) EXPECT_GT(row["mrays"], 0.0);
   EXPECT_EQ(json["scenes"][0]["primitives"], 0);
 }
