@@ -1,6 +1,7 @@
 // apps/strahl/bench.cpp - `strahl bench`: the production path alone or against a peer.
 #include <apps/strahl/bench_builds.h>
 #include <apps/strahl/bench_race.h>
+#include <apps/strahl/bench_scaling.h>
 #include <apps/strahl/commands.h>
 #include <cstdlib>
 #include <filesystem>
@@ -66,6 +67,20 @@ std::string bench_builds(const BenchOptions& options, Session& session, Json& do
   return builds_markdown(document);
 }
 
+std::string bench_scaling(const BenchOptions& options, Session& session, Json& document) {
+  document["scaling"] = measure_scaling(options, session);
+  if (!options.output.empty() && !draw_charts(scaling_charts(document["scaling"]),
+                                              std::filesystem::path(options.output) / "charts"))
+    session.warn("gnuplot is not installed: charts are scripts only");
+  return scaling_markdown(document["scaling"]);
+}
+
+std::string run_part(const BenchOptions& options, Session& session, Json& document) {
+  if (options.with_builds) return bench_builds(options, session, document);
+  if (options.with_scaling) return bench_scaling(options, session, document);
+  return bench_rays(options, session, document);
+}
+
 int run_bench(const BenchOptions& options) {
   if (options.has_peer()) peer::require_peer();
   choose_isa(options);
@@ -74,8 +89,7 @@ int run_bench(const BenchOptions& options) {
                    {"scenes", Json::array()},
                    {"results", Json::array()},
                    {"summary", Json::array()}};
-  const std::string text = options.with_builds ? bench_builds(options, session, document)
-                                               : bench_rays(options, session, document);
+  const std::string text = run_part(options, session, document);
   finish(options, session, document, text);
   return kExitOk;
 }
@@ -98,13 +112,29 @@ void add_race_options(CLI::App& command, BenchOptions& options) {
   command.add_option("--isa", options.isa, "Instruction set of both sides: avx512, avx2, sse4")
       ->type_name("NAME");
   command.add_option("--seed", options.seed, "Of the random numbers in rays");
-  command.add_option("-o,--output", options.output, "Folder for bench.json and bench.md")
+  command.add_option("-o,--output", options.output, "Folder for bench.json, bench.md and charts")
       ->type_name("DIR");
 }
 
 void add_part_options(CLI::App& command, BenchOptions& options) {
-  command.add_flag("--builds", options.with_builds,
-                   "Times of builds and speed of the trees instead: default and quality=fast");
+  CLI::Option* builds =
+      command.add_flag("--builds", options.with_builds,
+                       "Times of builds and speed of the trees instead: default and quality=fast");
+  CLI::Option* scaling =
+      command.add_flag("--scaling", options.with_scaling,
+                       "Growth with the number of triangles instead; -o also draws charts");
+  scaling->excludes(builds)->excludes(command.get_option("scenes"));
+  const auto add_size = [&](const char* name, double& value, const char* help) {
+    command.add_option(name, value, help)->needs(scaling)->check(CLI::PositiveNumber);
+  };
+  add_size("--from", options.from, "Least number of triangles (default: 1e4)");
+  add_size("--to", options.to, "Greatest number of triangles (default: 3e7)");
+  add_size("--step", options.step, "Factor from one size to the next (default: 10)");
+  command
+      .add_option("--generator", options.generator,
+                  "Scene to scale: terrain, soup, sticks or icosphere (default: terrain)")
+      ->needs(scaling)
+      ->type_name("NAME");
 }
 
 }  // namespace
@@ -123,7 +153,8 @@ void add_bench_command(CLI::App& app, Runner& run) {
       "  strahl bench\n"
       "  strahl bench bunny.ply gen:terrain:300 --peer embree --json\n"
       "  strahl bench bunny.ply --peer embree --isa avx2 --spec wide_bvh,wide_bvh:quality=high\n"
-      "  strahl bench bunny.ply --peer embree --builds --threads 2");
+      "  strahl bench bunny.ply --peer embree --builds --threads 2\n"
+      "  strahl bench --scaling --peer embree -o results");
   auto options = std::make_shared<BenchOptions>();
   add_race_options(*command, *options);
   add_part_options(*command, *options);

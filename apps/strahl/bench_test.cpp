@@ -1,6 +1,6 @@
 // apps/strahl/bench_test.cpp - `strahl bench`: what it prints, with and without a peer, and what it
 // refuses.
-#include <apps/strahl/bench_setup.h>
+#include <apps/strahl/bench_scaling.h>
 #include <apps/strahl/run_test.h>
 #include <string>
 
@@ -22,6 +22,20 @@ bool has_peer() {
 }
 
 std::string peer_option() { return has_peer() ? " --peer embree" : ""; }
+
+TEST(ScaledScene, HasAboutAsManyTriangles) {
+  EXPECT_EQ(scaled_scene("terrain", 1e4), "gen:terrain:72");
+  EXPECT_EQ(scaled_scene("terrain", 3e7), "gen:terrain:3874");
+  EXPECT_EQ(scaled_scene("soup", 1e6), "gen:soup:1000000");
+  EXPECT_EQ(scaled_scene("sticks", 2400), "gen:sticks:100");
+  EXPECT_EQ(scaled_scene("icosphere", 20 * 256), "gen:icosphere:4");
+}
+
+TEST(ScaledSizes, EndWithTheLargest) {
+  EXPECT_EQ(scaled_sizes(1e4, 3e7, 10), (std::vector<double>{1e4, 1e5, 1e6, 1e7, 3e7}));
+  EXPECT_EQ(scaled_sizes(1e4, 1e6, 10), (std::vector<double>{1e4, 1e5, 1e6}));
+  EXPECT_EQ(scaled_sizes(5, 5, 2), (std::vector<double>{5}));
+}
 
 class BenchCommand : public test::CommandTest {
  protected:
@@ -129,6 +143,28 @@ TEST_F(BenchCommand, ComparesBuildsAndTheirTrees) {
   EXPECT_GT(json["builds"][0]["seconds"], 0.0);
 }
 
+TEST_F(BenchCommand, ScalesAGeneratedSceneAndDrawsIt) {
+  const auto json = bench("--scaling --from 200 --to 3000 --step 4 -o out" + peer_option());
+  const std::size_t engines = has_peer() ? 2 : 1;
+  ASSERT_EQ(json["scaling"].size(), 3 * engines);
+  EXPECT_EQ(json["scaling"][0]["triangles"], 200);
+  EXPECT_EQ(json["scaling"].back()["triangles"], 3042);
+  for (const auto& row : json["scaling"]) {
+    EXPECT_GT(row["build_seconds"], 0.0);
+    EXPECT_GT(row["bytes_per_triangle"], 20.0);
+    EXPECT_LT(row["bytes_per_triangle"], 200.0);
+    ASSERT_EQ(row["rays"].size(), 4u);  // primary and random, single and batch
+    for (const auto& ray : row["rays"]) EXPECT_GT(ray["nanoseconds_per_ray"], 0.0);
+  }
+  for (const char* chart : {"time_primary", "time_random", "build", "memory"}) {
+    const std::string script = folder_.read(std::string("out/charts/") + chart + ".gp");
+    EXPECT_NE(script.find("\n3042 "), std::string::npos) << script;
+    EXPECT_EQ(script.find("embree") != std::string::npos, has_peer()) << script;
+  }
+  if (std::system("command -v gnuplot > /dev/null") != 0) return;
+  EXPECT_NE(folder_.read("out/charts/time_random.svg").find("nanoseconds"), std::string::npos);
+}
+
 TEST_F(BenchCommand, WritesWhatItPrints) {
   const auto json = bench("gen:tetra:2 --workload random -o out");
   EXPECT_EQ(json, nlohmann::json::parse(folder_.read("out/bench.json")));
@@ -151,6 +187,10 @@ TEST_F(BenchCommand, RefusesWhatItCannotRace) {
   expect_error("bench gen:tetra:2 --workload whitted", 2, "whitted");
   expect_error("bench gen:tetra:2 --workload sunny", 2, "sunny");
   expect_error("bench gen:tetra:2 --spec no_tree", 2, "no_tree");
+  expect_error("bench --scaling --generator balls", 2, "terrain");
+  expect_error("bench --scaling --from 100 --to 10", 2, "--from");
+  expect_error("bench gen:tetra:2 --scaling", 2, "--scaling");
+  expect_error("bench --from 100", 2, "--scaling");
   expect_error("bench missing.ply", 3, "missing.ply");
   // Without Embree that is what it says, with it that Embree gets triangles only.
   expect_error("bench gen:balls:1 --peer embree", 2, has_peer() ? "triangles only" : "Embree");
