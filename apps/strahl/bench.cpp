@@ -2,6 +2,7 @@
 #include <apps/strahl/bench_builds.h>
 #include <apps/strahl/bench_race.h>
 #include <apps/strahl/bench_scaling.h>
+#include <apps/strahl/bench_worst.h>
 #include <apps/strahl/commands.h>
 #include <cstdlib>
 #include <filesystem>
@@ -75,9 +76,25 @@ std::string bench_scaling(const BenchOptions& options, Session& session, Json& d
   return scaling_markdown(document["scaling"]);
 }
 
+/// What exactness costs; both parts may be asked for at once.
+std::string bench_cost(const BenchOptions& options, Session& session, Json& document) {
+  if (options.with_worst) document["worst"] = Json::array();
+  if (options.with_doubles) document["doubles"] = Json::array();
+  for (const std::string& name : scenes_of(options)) {
+    if (options.with_worst) measure_worst(name, options, session, document);
+    if (options.with_doubles) measure_doubles(name, options, session, document);
+  }
+  std::string text;
+  if (options.with_worst) text += worst_markdown(document);
+  if (options.with_worst && options.with_doubles) text += "\n";
+  if (options.with_doubles) text += doubles_markdown(document);
+  return text;
+}
+
 std::string run_part(const BenchOptions& options, Session& session, Json& document) {
   if (options.with_builds) return bench_builds(options, session, document);
   if (options.with_scaling) return bench_scaling(options, session, document);
+  if (options.with_worst || options.with_doubles) return bench_cost(options, session, document);
   return bench_rays(options, session, document);
 }
 
@@ -124,6 +141,16 @@ void add_part_options(CLI::App& command, BenchOptions& options) {
       command.add_flag("--scaling", options.with_scaling,
                        "Growth with the number of triangles instead; -o also draws charts");
   scaling->excludes(builds)->excludes(command.get_option("scenes"));
+  command
+      .add_flag("--worst", options.with_worst,
+                "Rays through vertices beside rays through insides of triangles instead")
+      ->excludes(builds)
+      ->excludes(scaling);
+  command
+      .add_flag("--double", options.with_doubles,
+                "Vertices that are no float32 beside such that are instead")
+      ->excludes(builds)
+      ->excludes(scaling);
   const auto add_size = [&](const char* name, double& value, const char* help) {
     command.add_option(name, value, help)->needs(scaling)->check(CLI::PositiveNumber);
   };
@@ -154,6 +181,7 @@ void add_bench_command(CLI::App& app, Runner& run) {
       "  strahl bench bunny.ply gen:terrain:300 --peer embree --json\n"
       "  strahl bench bunny.ply --peer embree --isa avx2 --spec wide_bvh,wide_bvh:quality=high\n"
       "  strahl bench bunny.ply --peer embree --builds --threads 2\n"
+      "  strahl bench bunny.ply --worst --double\n"
       "  strahl bench --scaling --peer embree -o results");
   auto options = std::make_shared<BenchOptions>();
   add_race_options(*command, *options);
