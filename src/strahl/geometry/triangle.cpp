@@ -49,6 +49,41 @@ int sign_on_edge_line(const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
   return first_nonzero({m.x.sign(), m.y.sign(), m.z.sign(), -c.z.sign(), c.y.sign(), -c.x.sign()});
 }
 
+/// Whether dir x P is 0, P = point - org. Sure when true: the products are exact for directions of
+/// 24 bits and P of 29, as float32 coordinates give them.
+inline bool passes_exactly(const Vec3d& dir, const Vec3d& org, const Vec3d& point, const Vec3d& P) {
+  const bool is_along =
+      (dir.y * P.z == dir.z * P.y) & (dir.z * P.x == dir.x * P.z) & (dir.x * P.y == dir.y * P.x);
+  if (!is_along) return false;
+  bool is_exact = Vec3d(Vec3f(dir)) == dir;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double scaled = 0x1.000001p24 * P[axis];
+    is_exact &= scaled - (scaled - P[axis]) == P[axis];
+    is_exact &= two_sum(point[axis], -org[axis]).low == 0.0;
+  }
+  return is_exact;
+}
+
+/// The sign of the first component of P x Q that is not 0; 0 where rounding leaves it uncertain.
+int certain_normal_sign(const Vec3d& P, const Vec3d& Q) {
+  for (int x = 0; x < 3; ++x) {
+    const int y = (x + 1) % 3, z = (x + 2) % 3;
+    const double a = P[y] * Q[z], b = P[z] * Q[y];
+    // Differences, products and their difference: four roundings at most, none of zeros.
+    if (a == 0.0 && b == 0.0) continue;
+    return std::abs(a - b) > 8 * 0x1p-53 * (std::abs(a) + std::abs(b)) ? sign(a - b) : 0;
+  }
+  return 0;
+}
+
+/// The sign of an edge with an end on the ray's line, where e is 0 and that of the next terms is
+/// certain; else 0. Rays aimed at vertices need nothing wider than this.
+int sign_at_vertex(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q,
+                   const Vec3d& P, const Vec3d& Q) {
+  if (!passes_exactly(dir, org, p, P) && !passes_exactly(dir, org, q, Q)) return 0;
+  return certain_normal_sign(P, Q);
+}
+
 /// numerator / denominator when both are certain to 2^-42, else empty.
 std::optional<double> certified_quotient(double numerator, double numerator_bound,
                                          double denominator, double denominator_bound) {
@@ -178,20 +213,31 @@ int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Ve
 }
 
 int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
-  const double reach = norm_max(p - ray.org) * norm_max(q - ray.org);
-  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * reach) return sign(e);
+  const Vec3d P = p - ray.org, Q = q - ray.org;
+  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * (norm_max(P) * norm_max(Q))) return sign(e);
+  if (const int s = sign_at_vertex(ray.org, ray.dir, p, q, P, Q)) return s;
   return exact_edge_sign(ray.org, ray.dir, p, q);
 }
 
 std::optional<TriangleHit> intersect_uncertain(const PreparedRay& ray, const TriangleVertices& tri,
                                                const Vec3d& edge_values) {
-  const int ab = edge_sign(ray, tri.a, tri.b, edge_values.x);
-  const int ca = edge_sign(ray, tri.c, tri.a, edge_values.y);
-  if (ab != ca || ab == 0) return std::nullopt;
-  if (edge_sign(ray, tri.b, tri.c, edge_values.z) != ab) return std::nullopt;
+  // Certain signs agree, or intersect() had ruled the triangle out. Those first: an uncertain sign
+  // that differs from them spares the other.
+  const Vec3d* corners[] = {&tri.a, &tri.b, &tri.c, &tri.a};
+  constexpr int kValue[] = {0, 2, 1};  // of ab, bc, ca
+  int common = 0;
+  for (const int value : kValue)
+    if (std::abs(edge_values[value]) > ray.edge_error) common = sign(edge_values[value]);
+  for (int i = 0; i < 3; ++i) {
+    const double e = edge_values[kValue[i]];
+    if (std::abs(e) > ray.edge_error) continue;
+    const int s = resolve_edge_sign(ray, *corners[i], *corners[i + 1], e);
+    if (s == 0 || (common != 0 && s != common)) return std::nullopt;
+    common = s;
+  }
   const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
   if (!t) return std::nullopt;
-  return TriangleHit{*t + 0.0, ab < 0};  // -0 + 0 is +0
+  return TriangleHit{*t + 0.0, common < 0};  // -0 + 0 is +0
 }
 
 std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri) {

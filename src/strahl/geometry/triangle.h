@@ -7,8 +7,8 @@
 // Filter: e is evaluated as (dir x P) . Q. Each of its six monomials d_i P_j Q_k carries at most
 //   seven roundings (P, Q, product, difference, product, two sums), so with M >= |P|, |Q| the error
 //   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = PreparedRay::edge_error. A larger |e|
-//   has a certain sign. Else the bound is sharpened to this edge, then the sign is computed
-//   exactly.
+//   has a certain sign. Else the bound is sharpened to this edge; then, where the ray passes
+//   exactly through an end, e is 0 and the next terms are doubles; else expansions decide.
 // Parameter: t = (A . N) / (dir . N), N = (b - a) x (c - a). A . N and dir . N carry at most eight
 //   roundings per monomial; when both exceed 2^42 times that bound their quotient is within
 //   2^-41 + 2^-53 of the truth. Else both are computed exactly, rounded once, then divided.
@@ -56,16 +56,9 @@ TriangleDefect find_defect(const TriangleVertices& tri);
 /// Conservative box of the part of the triangle inside box; empty only if that part is empty.
 Aabb clip(const TriangleVertices& tri, const Aabb& box);
 
-/// Sharper bound and exact evaluation for an edge whose filtered value is uncertain.
-/// @param e the filtered value, P and Q the rounded differences it was made of
+/// The sign of an edge whose filtered value e is uncertain: by a sharper bound, without expansions
+/// where the ray passes exactly through an end of it, else exactly.
 int resolve_edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e);
-
-/// The sign of an edge value: certain, or resolved.
-inline int edge_sign(const PreparedRay& ray, const Vec3d& p, const Vec3d& q, double e) {
-  if (e > ray.edge_error) return 1;
-  if (e < -ray.edge_error) return -1;
-  return resolve_edge_sign(ray, p, q, e);
-}
 
 /// Canonical t of a triangle known to be crossed; empty when not finite.
 /// @param A tri.a - org
