@@ -1,8 +1,13 @@
 // apps/strahl/bench_test.cpp - `strahl bench`: what it prints, with and without a peer, and what it
 // refuses.
+#include <algorithm>
 #include <apps/strahl/bench_scaling.h>
+#include <apps/strahl/bench_worst.h>
 #include <apps/strahl/run_test.h>
 #include <string>
+
+#include <strahl/catalog/catalog.h>
+#include <strahl/io/generators.h>
 
 namespace strahl::cli {
 namespace {
@@ -35,6 +40,47 @@ TEST(ScaledSizes, EndWithTheLargest) {
   EXPECT_EQ(scaled_sizes(1e4, 3e7, 10), (std::vector<double>{1e4, 1e5, 1e6, 1e7, 3e7}));
   EXPECT_EQ(scaled_sizes(1e4, 1e6, 10), (std::vector<double>{1e4, 1e5, 1e6}));
   EXPECT_EQ(scaled_sizes(5, 5, 2), (std::vector<double>{5}));
+}
+
+std::shared_ptr<const Scene> generated(const char* text) {
+  return std::make_shared<const Scene>(generate_scene(text));
+}
+
+TEST(AimedRays, MeetTheirVerticesExactly) {
+  const auto given = generated("icosphere:3");
+  const double step = coarse_step(given->total_bounds());
+  FlatMesh mesh = flat_mesh(*given);
+  for (Vec3d& v : mesh.vertices) v = snapped(v, step);
+  const auto accelerator = build(float_scene(mesh), "wide_bvh");
+  const AimedRays rays = make_aimed_rays(*accelerator, mesh, step, 300, 1);
+  ASSERT_EQ(rays.to_vertices.rays.size(), 300u);
+  std::vector<Hit> hits(300);
+  for (const RaySet* set : {&rays.to_vertices, &rays.to_insides}) {
+    for (const peer::FloatRay& ray : set->rays) {
+      const Vec3d end = Vec3d(ray.org) + Vec3d(ray.dir);
+      const bool is_vertex =
+          std::find(mesh.vertices.begin(), mesh.vertices.end(), end) != mesh.vertices.end();
+      ASSERT_EQ(is_vertex, set == &rays.to_vertices);
+    }
+    accelerator->closest_hit(peer::batch_of(set->rays), hits);
+    for (const Hit& hit : hits) ASSERT_TRUE(hit.is_hit());
+  }
+}
+
+TEST(DoubleScene, HoldsNoFloatsAndRoundsToTheFloatScene) {
+  const auto given = generated("terrain:12");
+  const FlatMesh mesh = flat_mesh(*given);
+  const auto floats = float_scene(mesh), doubles = double_scene(mesh, given->total_bounds());
+  ASSERT_EQ(doubles->size(), given->size());
+  const VertexView &f = floats->geometries()[0].mesh.vertices,
+                   &d = doubles->geometries()[0].mesh.vertices;
+  for (std::size_t i = 0; i < f.count; ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NE(double{static_cast<float>(d[i][axis])}, d[i][axis]);
+      if (f[i][axis] != 0.0) {
+        EXPECT_EQ(double{static_cast<float>(d[i][axis])}, f[i][axis]);
+      }
+    }
 }
 
 class BenchCommand : public test::CommandTest {
@@ -165,6 +211,25 @@ TEST_F(BenchCommand, ScalesAGeneratedSceneAndDrawsIt) {
   EXPECT_NE(folder_.read("out/charts/time_random.svg").find("nanoseconds"), std::string::npos);
 }
 
+TEST_F(BenchCommand, MeasuresWhatExactnessCosts) {
+  const auto json = bench("gen:icosphere:2 gen:tetra:2 --worst --double --workload ao,random");
+  EXPECT_EQ(json["results"].size(), 0u);
+  ASSERT_EQ(json["worst"].size(), 2u * 2 * 2);
+  ASSERT_EQ(json["doubles"].size(), 2u * 2 * 2);
+  for (const char* part : {"worst", "doubles"})
+    for (const auto& row : json[part]) {
+      EXPECT_GT(row["ratio_low"], 0.0);
+      EXPECT_LE(row["ratio_low"], row["ratio"]);
+      EXPECT_GT(row["rays"], 0);
+    }
+}
+
+TEST_F(BenchCommand, LeavesOutScenesWithoutTriangles) {
+  const auto json = bench("gen:jacks:2 --worst --double");
+  EXPECT_EQ(json["worst"].size(), 0u);
+  EXPECT_EQ(json["doubles"].size(), 0u);
+}
+
 TEST_F(BenchCommand, WritesWhatItPrints) {
   const auto json = bench("gen:tetra:2 --workload random -o out");
   EXPECT_EQ(json, nlohmann::json::parse(folder_.read("out/bench.json")));
@@ -190,6 +255,7 @@ TEST_F(BenchCommand, RefusesWhatItCannotRace) {
   expect_error("bench --scaling --generator balls", 2, "terrain");
   expect_error("bench --scaling --from 100 --to 10", 2, "--from");
   expect_error("bench gen:tetra:2 --scaling", 2, "--scaling");
+  expect_error("bench --worst --builds", 2, "--builds");
   expect_error("bench --from 100", 2, "--scaling");
   expect_error("bench missing.ply", 3, "missing.ply");
   // Without Embree that is what it says, with it that Embree gets triangles only.
