@@ -8,6 +8,7 @@
 
 #include <strahl/catalog/catalog.h>
 #include <strahl/io/generators.h>
+#include <strahl/render/framing.h>
 
 namespace strahl::cli {
 namespace {
@@ -83,6 +84,30 @@ TEST(DoubleScene, HoldsNoFloatsAndRoundsToTheFloatScene) {
     }
 }
 
+/// Rays of every kind, in a number that fills no packet.
+std::vector<RaySet> mixed_rays(const Accelerator& accelerator) {
+  const WorkloadKind kinds[] = {WorkloadKind::primary, WorkloadKind::ao, WorkloadKind::random};
+  std::vector<RaySet> sets =
+      make_ray_sets(accelerator, kinds, {default_view(accelerator.scene(), 64, 64), 4096, 1}, {});
+  for (RaySet& set : sets) set.rays.resize(1031);
+  return sets;
+}
+
+TEST(Peer, AnswersAlikeThroughAllItsInterfaces) {
+  if (!has_peer()) GTEST_SKIP() << "built without Embree";
+  const auto scene = generated("tetra:5");
+  const auto accelerator = build(scene, "wide_bvh");
+  const auto peer = peer::make_peer(*scene, {});
+  for (const RaySet& set : mixed_rays(*accelerator)) {
+    Contest contest(set);
+    contest.run(*accelerator);
+    for (const peer::PeerApi api : peer::kPeerApis) {
+      contest.run(*peer, api);
+      EXPECT_LE(contest.differences(), 3u) << name_of(set.kind) << ", " << name_of(api);
+    }
+  }
+}
+
 class BenchCommand : public test::CommandTest {
  protected:
   nlohmann::json bench(const std::string& arguments) const {
@@ -140,7 +165,7 @@ TEST_F(BenchCommand, MeasuresAloneWithoutAPeer) {
 
 TEST_F(BenchCommand, RacesThePeerOnTheSameRays) {
   if (!has_peer()) GTEST_SKIP() << "built without Embree";
-  const auto json = bench("gen:terrain:40 gen:icosphere:3 --peer embree");
+  const auto json = bench("gen:terrain:40 gen:tetra:4 --peer embree");
   ASSERT_EQ(json["results"].size(), 2u * 5 * 2);
   for (const auto& row : json["results"]) {
     expect_estimate(row, "ratio");
