@@ -122,9 +122,11 @@ void add_race_options(CLI::App& command, BenchOptions& options) {
       .add_option("--workload,--workloads", options.workloads,
                   "Sets of rays (default: primary,diffuse,shadow,ao,random)")
       ->type_name("NAME,...");
-  command.add_option("--size", options.size, "Pixels of a side; other sets have as many rays")
+  command
+      .add_option("--size", options.size,
+                  "Pixels of a side; other sets have as many rays (default: 512)")
       ->check(CLI::Range(1, 8192));
-  command.add_option("--repeat", options.repeat, "Times that everything is measured")
+  command.add_option("--repeat", options.repeat, "Times that everything is measured (default: 7)")
       ->check(CLI::Range(1, 1000));
   command.add_option("--isa", options.isa, "Instruction set of both sides: avx512, avx2, sse4")
       ->type_name("NAME");
@@ -170,10 +172,12 @@ void add_bench_command(CLI::App& app, Runner& run) {
   CLI::App* command =
       app.add_subcommand("bench", "Speed of the production path, also against a peer");
   command->footer(
-      "Rays are traced on one thread, exact hits on. Runs of both sides alternate; a ratio above "
-      "1\n"
-      "says that strahl is faster. api=single hands rays over one at a time on both sides,\n"
-      "api=batch many at a time, to the peer by its fastest interface for those rays.\n"
+      "Rays are traced on one thread, exact hits on; --threads (here: 1 unless given) is for "
+      "builds.\n"
+      "Runs of both sides alternate; a ratio above 1 says that strahl is faster. api=single hands\n"
+      "rays over one at a time on both sides, api=batch many at a time, to the peer by its "
+      "fastest\n"
+      "interface for those rays. Means over scenes are geometric.\n"
       "Without SCENE some generated ones are raced.\n"
       "Workloads: primary diffuse shadow ao random.\n"
       "Examples:\n"
