@@ -13,6 +13,7 @@ void add_query_command(CLI::App& app, Runner& run);
 void add_generate_command(CLI::App& app, Runner& run);
 void add_compare_command(CLI::App& app, Runner& run);
 void add_advise_command(CLI::App& app, Runner& run);
+void add_bench_command(CLI::App& app, Runner& run);
 
 /// What SCENE may be, for the help of a subcommand.
 inline constexpr const char* kSceneHelp =

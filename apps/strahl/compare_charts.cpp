@@ -1,48 +1,14 @@
 #include <algorithm>
 #include <apps/strahl/compare_charts.h>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
-#include <spawn.h>
-#include <sys/wait.h>
 
 #include <fmt/core.h>
-
-#include <strahl/base/error.h>
-#include <strahl/io/atomic_file.h>
 
 namespace strahl::cli {
 namespace {
 
 std::string text_of(const Json& json) { return json.get<std::string>(); }
-
-/// In gnuplot's double quotes.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
-
-std::string head(const std::string& name, const std::string& title, const std::string& x,
-                 const std::string& y) {
-  return fmt::format(
-      "set terminal svg size 760,460 dynamic background rgb 'white' font 'Helvetica,13'\n"
-      "set output '{}.svg'\nset termoption noenhanced\nset title {}\nset xlabel {}\n"
-      "set ylabel {}\nset grid lc rgb '#dddddd'\nset key outside right top\n",
-      name, quoted(title), quoted(x), quoted(y));
-}
-
-std::string color(std::size_t i) {
-  static constexpr const char* kColors[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e",
-                                            "#17becf", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22"};
-  return fmt::format("lc rgb '{}'", kColors[i % std::size(kColors)]);
-}
-/// Of structure i, distinct for a few dozen.
-std::string line(std::size_t i) { return color(i) + fmt::format(" lw 1.6 dt {}", 1 + i / 10); }
-std::string point(std::size_t i) { return color(i) + fmt::format(" pt {} ps 0.8", 4 + i % 11); }
 
 /// The SPEC of structure i, short enough to leave room for the chart.
 std::string label(const Json& row, std::size_t i) {
@@ -58,23 +24,12 @@ enum class Marks { lines, points };
 std::string plot_blocks(const Json& rows, Marks marks) {
   std::string text = "plot ";
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string with = marks == Marks::lines ? "lines " + line(i) : "points " + point(i);
+    const std::string with =
+        marks == Marks::lines ? "lines " + line_style(i) : "points " + point_style(i);
     text += fmt::format("{}$d{} using 1:2 with {} title {}", i > 0 ? ", " : "", i, with,
                         label(rows[i], i));
   }
   return text + "\n";
-}
-
-std::string block(std::size_t i, const std::vector<std::pair<double, double>>& points) {
-  std::string text = fmt::format("$d{} << EOD\n", i);
-  for (const auto& [x, y] : points) text += fmt::format("{:.6g} {:.6g}\n", x, y);
-  return text + "EOD\n";
-}
-
-/// Some room on both sides of positive values, which one alone would not give.
-std::string log_range(const char* axis, const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return fmt::format("set {}range [{:.6g}:{:.6g}]\n", axis, *least / 2, *most * 2);
 }
 
 /// Scenes are no series: points, the more of a structure in a line the better it scales.
@@ -84,17 +39,17 @@ Chart size_chart(const Json& scenes, std::size_t w, const std::string& workload)
   std::vector<double> sizes, times;
   std::string blocks;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<std::pair<double, double>> points;
+    Points points;
     for (const Json& scene : scenes) {
       sizes.push_back(std::max(scene["primitives"].get<double>(), 1.0));
       times.push_back(1e3 / scene["structures"][i]["workloads"][w]["mrays"].get<double>());
       points.emplace_back(sizes.back(), times.back());
     }
     std::sort(points.begin(), points.end());
-    blocks += block(i, points);
+    blocks += data_block(i, points);
   }
   return {name, title,
-          head(name, title, "primitives", "nanoseconds per ray") + log_range("x", sizes) +
+          chart_head(name, title, "primitives", "nanoseconds per ray") + log_range("x", sizes) +
               log_range("y", times) + "set logscale xy\nset format xy '%.0s%c'\n" + blocks +
               plot_blocks(rows, Marks::points)};
 }
@@ -113,7 +68,8 @@ Chart rank_chart(const Json& summary) {
     data += fmt::format("{:.6g} {} {:.6g} {:.6g}\n", rank, i, rank - half, rank + half);
   }
   return {name, title,
-          head(name, title, "mean rank, with half the critical difference (5 %) to each side", "") +
+          chart_head(name, title, "mean rank, with half the critical difference (5 %) to each side",
+                     "") +
               fmt::format("set ytics ({})\nset yrange [{}.5:-0.5]\nset key off\n", ticks,
                           structures.size() - 1) +
               data +
@@ -128,8 +84,8 @@ double geometric_mean_over(const Json& scenes, const std::function<double(const 
 
 Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workload) {
   const std::string name = "memory_" + workload, title = "Memory against speed: " + workload;
-  std::string script = head(name, title, "bytes per primitive (geometric mean over scenes)",
-                            "million rays per second (geometric mean)") +
+  std::string script = chart_head(name, title, "bytes per primitive (geometric mean over scenes)",
+                                  "million rays per second (geometric mean)") +
                        "set logscale xy\n";
   const Json& rows = scenes[0]["structures"];
   std::vector<double> all_bytes, all_speeds;
@@ -141,7 +97,7 @@ Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workloa
       return scene["structures"][i]["workloads"][w]["mrays"].get<double>();
     });
     all_bytes.push_back(std::max(bytes, 0.1)), all_speeds.push_back(speed);
-    script += block(i, {{all_bytes.back(), speed}});
+    script += data_block(i, {{all_bytes.back(), speed}});
   }
   script += log_range("x", all_bytes) + log_range("y", all_speeds);
   return {name, title, script + plot_blocks(rows, Marks::points)};
@@ -151,7 +107,7 @@ Chart memory_chart(const Json& scenes, std::size_t w, const std::string& workloa
 Chart total_chart(const Json& scene, std::size_t number) {
   const std::string name = fmt::format("total_{}", number),
                     title = "Build and rays together: " + text_of(scene["scene"]);
-  std::string script = head(name, title, "rays of all workloads alike", "seconds") +
+  std::string script = chart_head(name, title, "rays of all workloads alike", "seconds") +
                        "set logscale xy\nset format x '1e%T'\n";
   const Json& rows = scene["structures"];
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -159,26 +115,13 @@ Chart total_chart(const Json& scene, std::size_t number) {
     for (const Json& cell : rows[i]["workloads"])
       per_ray +=
           1e-6 / cell["mrays"].get<double>() / static_cast<double>(rows[i]["workloads"].size());
-    std::vector<std::pair<double, double>> points;
+    Points points;
     for (double rays = 1e3; rays < 2e9; rays *= std::sqrt(10.0))
       points.emplace_back(rays, rows[i]["build"]["seconds"].get<double>() + rays * per_ray);
-    script += block(i, points);
+    script += data_block(i, points);
   }
   script += plot_blocks(rows, Marks::lines);
   return {name, title, script};
-}
-
-/// Runs gnuplot on a script in the folder. Its exit status; -1 where it cannot be started.
-int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
-  const std::string place = folder.string();
-  std::string name = "gnuplot", execute = "-e", change = "cd " + quoted(place);
-  std::string file = script;
-  char* arguments[] = {name.data(), execute.data(), change.data(), file.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, "gnuplot", nullptr, nullptr, arguments, environ) != 0) return -1;
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
 }
 
 }  // namespace
@@ -196,20 +139,6 @@ std::vector<Chart> compare_charts(const Json& document) {
   }
   for (std::size_t i = 0; i < scenes.size(); ++i) charts.push_back(total_chart(scenes[i], i));
   return charts;
-}
-
-bool draw_charts(const std::vector<Chart>& charts, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  bool has_gnuplot = true;
-  for (const Chart& chart : charts) {
-    write_text_file(folder / (chart.name + ".gp"), chart.script);
-    const int status = has_gnuplot ? run_gnuplot(folder, chart.name + ".gp") : -1;
-    has_gnuplot = status != -1 && status != 127;
-    if (has_gnuplot && status != 0)
-      throw Error(ErrorCode::resource, fmt::format("gnuplot failed with status {}", status),
-                  (folder / (chart.name + ".gp")).string());
-  }
-  return has_gnuplot;
 }
 
 }  // namespace strahl::cli

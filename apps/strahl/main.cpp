@@ -78,9 +78,9 @@ int main(int argc, char** argv) {
   app.add_flag("--version", version, "Print the version");
   app.add_flag("--verbose", verbose, "With --version: commit, instruction set, dependencies");
   Runner run;
-  for (const auto add :
-       {add_list_command, add_info_command, add_check_command, add_render_command,
-        add_query_command, add_generate_command, add_compare_command, add_advise_command})
+  for (const auto add : {add_list_command, add_info_command, add_check_command, add_render_command,
+                         add_query_command, add_generate_command, add_compare_command,
+                         add_advise_command, add_bench_command})
     add(app, run);
   app.require_subcommand(0, 1);
 

@@ -62,6 +62,10 @@ TEST_F(Schemas, DescribeWhatTheCommandsPrint) {
   expect_schema("check", "gen:balls:1");
   expect_schema("query", "gen:balls:1 --rays rays.npy --count");
   expect_schema("advise", "gen:balls:1 --rays 1000");
+  expect_schema("bench", "gen:balls:1 gen:tetra:2 --size 8 --repeat 1");
+  expect_schema("bench", "gen:tetra:2 --builds --size 8 --repeat 1");
+  expect_schema("bench", "--scaling --from 20 --to 200 --size 8 --repeat 1");
+  expect_schema("bench", "gen:tetra:2 --worst --double --size 8 --repeat 1");
   expect_schema("compare", "gen:balls:1 --structures bvh,grid --rays 100 --repeat 1 -o out");
   expect_schema("render", "gen:balls:1 --size 8x8 --mode depth");
   folder_.write("still.json", R"({"tracks": []})");

@@ -94,10 +94,12 @@ std::unique_ptr<Accelerator> Session::build(std::shared_ptr<const Scene> scene,
   return strahl::build(std::move(scene), chosen, context_);
 }
 
-void Session::warn(const std::string& text) {
+void Session::warn(const std::string& text) { note("warning: " + text); }
+
+void Session::note(const std::string& text) {
   if (quiet_) return;
   bar_.clear();
-  fmt::print(stderr, "strahl: warning: {}\n", text);
+  fmt::print(stderr, "strahl: {}\n", text);
 }
 
 void print_text(const std::string& text) {

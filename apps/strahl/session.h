@@ -67,6 +67,8 @@ class Session {
 
   /// "strahl: warning: ..." on stderr unless --quiet.
   void warn(const std::string& text);
+  /// "strahl: ..." on stderr unless --quiet: where a long run is.
+  void note(const std::string& text);
   /// Removes the progress bar: call before printing results.
   void finish_progress() { bar_.clear(); }
 

@@ -80,6 +80,29 @@ Case tiny_in_plane_case(Rng& rng) {
   return c;
 }
 
+/// Exactly through a corner of a triangle whose coordinates have few bits, or through or by a hair
+/// beside the ends of an edge that lies along the ray as nearly as doubles allow.
+Case corner_case(Rng& rng) {
+  Case c;
+  const double step = std::ldexp(1.0, -static_cast<int>(rng.below(26)));
+  const auto grid_point = [&] { return step * lattice_point(rng, 1 << rng.below(12)); };
+  c.tri = {grid_point(), grid_point(), grid_point()};
+  c.org = grid_point();
+  do c.dir = (c.tri.a - c.org) * std::ldexp(1.0, static_cast<int>(rng.below(9)) - 4);
+  while (c.dir == Vec3d{} && (c.org = c.org + Vec3d::all(step), true));
+  if (rng.below(3) > 0) return c;
+  c.org = {};
+  c.dir = Vec3d(Vec3f(random_point(rng, 1.0)));
+  if (rng.below(2)) {
+    c.tri = {rng.uniform(1.0, 9.0) * c.dir, random_point(rng, 5.0), rng.uniform(1.0, 9.0) * c.dir};
+  } else {
+    // tri.c - org is rounded by as much as tri.c lies beside the ray.
+    c.org = -1024.0 * c.dir;
+    c.tri = {-1020.0 * c.dir, random_point(rng, 5.0), random_point(rng, 0x1p-43)};
+  }
+  return c;
+}
+
 PreparedRay prepare(const Case& c) {
   RayFrame frame;
   frame.bounds = c.tri.bounds();
@@ -129,6 +152,9 @@ TEST(TriangleExact, AgreesWithRationalArithmeticOnTheSmallestCoordinates) {
 }
 TEST(TriangleExact, AgreesWithRationalArithmeticWhenAimedAtCornersAndEdges) {
   check_many(aimed_case, 20000, 2);
+}
+TEST(TriangleExact, AgreesWithRationalArithmeticThroughCorners) {
+  check_many(corner_case, 20000, 10);
 }
 TEST(TriangleExact, AgreesWithRationalArithmeticOnGrazedSlivers) {
   check_many(sliver_case, 20000, 3);

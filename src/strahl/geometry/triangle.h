@@ -7,8 +7,9 @@
 // Filter: e is evaluated as (dir x P) . Q. Each of its six monomials d_i P_j Q_k carries at most
 //   seven roundings (P, Q, product, difference, product, two sums), so with M >= |P|, |Q| the error
 //   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = ExactRay::edge_error. A larger |e|
-//   has a certain sign. Else the bound is sharpened to this edge, then the sign is computed
-//   exactly.
+//   has a certain sign. Else the bound is sharpened to this edge; then, where the ray passes
+//   exactly through an end, e is 0 and the next terms are doubles; then integers of 128 bits are
+//   tried (integer_edges.h); else expansions decide.
 // Parameter: t = (A . N) / (dir . N), N = (b - a) x (c - a). A . N and dir . N carry at most eight
 //   roundings per monomial; when both exceed 2^42 times that bound their quotient is within
 //   2^-41 + 2^-53 of the truth. Else both are computed exactly, rounded once, then divided.

@@ -1,4 +1,4 @@
-// bench/peer/float_rays.h - rays of a workload as 32-byte records, the form both sides read.
+// apps/strahl/peer/float_rays.h - rays of a workload as 32-byte records, the form both sides read.
 #pragma once
 
 #include <cstddef>
