@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
@@ -30,7 +31,7 @@ class Layout {
 
   void run() {
     if (collapse_.is_block(0))
-      total_units_ = units(leaf_bytes(lanes_of_block(0)));
+      total_units_ = units(leaf_bytes(lanes_of_block(0), out_.layout));
     else
       measure(0);
     if (total_units_ > kWideMaxUnits)
@@ -69,7 +70,7 @@ class Layout {
       for (const std::uint32_t child : children_of(node)) {
         if (collapse_.is_block(child) != blocks) continue;
         if (blocks)
-          total_units_ += units(leaf_bytes(lanes_of_block(child)));
+          total_units_ += units(leaf_bytes(lanes_of_block(child), out_.layout));
         else
           measure(child);
       }
@@ -99,10 +100,10 @@ class Layout {
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::uint32_t unit;
-    std::byte* block = take(leaf_bytes(lanes), unit);
+    std::byte* block = take(leaf_bytes(lanes, out_.layout), unit);
     std::copy(references.begin(), references.end(),
-              const_cast<std::uint32_t*>(reference_row(block, lanes)));
-    strahl::write_block(block, references, out_.frame, source_);
+              const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
+    strahl::write_block(block, references, out_, source_);
     ++report_.nodes, ++report_.leaves, report_.references += lanes;
     report_.depth = std::max(report_.depth, depth);
     return kWideLeaf | unit << 4 | (lanes - 1);
@@ -177,11 +178,10 @@ void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width
   }
 }
 
-WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
-                      bool has_exact_corners, const PrimitiveSource& source,
-                      const BuildContext& context, BuildReport& report) {
-  WideTree out;
-  out.width = width, out.frame = frame, out.has_exact_corners = has_exact_corners;
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, WideTree empty,
+                      const PrimitiveSource& source, const BuildContext& context,
+                      BuildReport& report) {
+  WideTree out = std::move(empty);
   Layout(tree, collapse, out, source, context, report).run();
   out.depth = report.depth;
   return out;

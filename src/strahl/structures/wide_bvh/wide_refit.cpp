@@ -72,7 +72,7 @@ class Fitter {
     const std::span references(reference_row(block, lanes), lanes);
     Fitted fitted;
     for (const std::uint32_t reference : references) fitted.box.extend(things_.boxes[reference]);
-    write_block(block, references, tree_.frame, source_);
+    write_block(block, references, tree_, source_);
     fitted.cost = share(fitted.box) * (rules_.leaf_cost + rules_.primitive_cost * lanes);
     return fitted;
   }
@@ -147,8 +147,9 @@ std::optional<FittedWideTree> fit_wide_tree(const WideTree& tree, const Primitiv
   out.arena = WideArena(tree.arena.size());
   std::memcpy(out.arena.data(), tree.arena.data(), tree.arena.size());
   out.root = tree.root, out.width = tree.width, out.depth = tree.depth;
+  out.layout = tree.layout;
   out.frame = make_wide_frame(things.whole);
-  out.has_exact_corners = things.all_floats && out.frame.is_identity();
+  out.has_exact_corners = keeps_corners(out, things.all_floats);
   fitted.cost = Fitter(out, things, source, context).run();
   return fitted;
 }

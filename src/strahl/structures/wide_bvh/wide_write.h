@@ -16,8 +16,8 @@ void clear_boxes(std::byte* node, int width);
 /// Writes a child's box, rounded outward into the frame.
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame);
 
-/// Writes error bounds and corners of a block of these lanes.
-void write_block(std::byte* block, std::span<const std::uint32_t> references,
-                 const WideFrame& frame, const PrimitiveSource& source);
+/// Writes error bounds and corners of a block of these lanes, in the tree's frame and layout.
+void write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
+                 const PrimitiveSource& source);
 
 }  // namespace strahl
