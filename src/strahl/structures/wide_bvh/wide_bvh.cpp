@@ -79,7 +79,7 @@ OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
              "most primitives in a block; 0: the width"),
       option("layout", &WideBvhOptions::layout,
              {{"full", WideLayout::full}, {"compact", WideLayout::compact}},
-             "corners in blocks: floats, or rounded to 16 bits"),
+             "corners in blocks: each as floats, or once, or rounded to 16 bits"),
       option("batch", &WideBvhOptions::batch,
              {{"interleaved", WideBatch::interleaved}, {"single", WideBatch::single}},
              "float rays of a batch: many under way at once, or one after the other"),
@@ -98,7 +98,7 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   for (const PrimRef& ref : refs) box.extend(ref.box);
   WideTree empty;
   empty.width = width, empty.layout = options.layout, empty.frame = make_wide_frame(box);
-  empty.has_exact_corners = keeps_corners(empty, have_float_corners(refs, source));
+  empty.has_exact_corners = have_float_corners(refs, source) && empty.frame.is_identity();
   CollapseRules rules;
   rules.width = width;
   rules.max_leaf =

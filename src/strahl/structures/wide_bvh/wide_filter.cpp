@@ -41,7 +41,7 @@ LeafBound leaf_bound(std::span<const LaneCorners> lanes) {
   const double constant = kUnit * 23.6 * L * L + 10 * error * L + 1e-30;
   // 1.7321 = sqrt 3 turns a largest component into a norm; 1.0002 covers |d| and these roundings.
   return {-float_above(1.0002 * 1.7321 * per_distance), -float_above(1.0002 * constant),
-          float_above(1.4 * L), 0.0f};
+          float_above(1.4 * L), 0};
 }
 
 }  // namespace strahl

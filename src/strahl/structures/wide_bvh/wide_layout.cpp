@@ -8,6 +8,11 @@
 namespace strahl {
 namespace {
 
+/// What a compact tree may take per reference for the sake of exact corners, and how many units it
+/// may spend per block.
+constexpr std::uint64_t kCompactBytes = 36;
+constexpr std::size_t kMostSpare = 1;
+
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
 /// The octant of a slot: bit a set on the high side of axis a.
@@ -31,9 +36,10 @@ class Layout {
 
   void run() {
     if (collapse_.is_block(0))
-      total_units_ = units(leaf_bytes(lanes_of_block(0), out_.layout));
+      grow(0);
     else
       measure(0);
+    choose_spare();
     if (total_units_ > kWideMaxUnits)
       throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
     const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
@@ -65,15 +71,31 @@ class Layout {
   }
 
   void measure(std::uint32_t node) {
-    total_units_ = aligned(total_units_) + units(node_bytes(out_.width));
+    for (std::uint64_t& total : totals_) total = aligned(total) + units(node_bytes(out_.width));
     for (const bool blocks : {true, false})
       for (const std::uint32_t child : children_of(node)) {
         if (collapse_.is_block(child) != blocks) continue;
         if (blocks)
-          total_units_ += units(leaf_bytes(lanes_of_block(child), out_.layout));
+          grow(child);
         else
           measure(child);
       }
+  }
+
+  /// By a block. Both totals are the same in the full layout.
+  void grow(std::uint32_t block) {
+    Lanes room;
+    const auto references = block_references(block, room);
+    for (std::size_t spare = 0; spare <= kMostSpare; ++spare)
+      totals_[spare] += units(block_bytes(references, out_, source_, spare));
+    references_ += references.size();
+  }
+
+  /// As many as kCompactBytes per reference allow.
+  void choose_spare() {
+    const std::uint64_t allowed = kCompactBytes * references_ / kWideUnit;
+    while (spare_ < kMostSpare && totals_[spare_ + 1] <= allowed) ++spare_;
+    total_units_ = totals_[spare_];
   }
 
   std::byte* take(std::size_t bytes, std::uint32_t& unit) {
@@ -90,20 +112,17 @@ class Layout {
     std::sort(room.begin(), end);
     return {room.begin(), std::unique(room.begin(), end)};
   }
-  std::size_t lanes_of_block(std::uint32_t node) const {
-    Lanes room;
-    return block_references(node, room).size();
-  }
 
   WideId write_block(std::uint32_t node, std::uint64_t depth) {
     Lanes room;
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::uint32_t unit;
-    std::byte* block = take(leaf_bytes(lanes, out_.layout), unit);
+    const std::size_t bytes = block_bytes(references, out_, source_, spare_);
+    std::byte* block = take(bytes, unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
-    strahl::write_block(block, references, out_, source_);
+    strahl::write_block(block, references, out_, source_, bytes);
     ++report_.nodes, ++report_.leaves, report_.references += lanes;
     report_.depth = std::max(report_.depth, depth);
     return kWideLeaf | unit << 4 | (lanes - 1);
@@ -151,7 +170,8 @@ class Layout {
   const PrimitiveSource& source_;
   const BuildContext& context_;
   BuildReport& report_;
-  std::uint64_t total_units_ = 0;
+  std::array<std::uint64_t, kMostSpare + 1> totals_{};  ///< per spare
+  std::uint64_t total_units_ = 0, references_ = 0, spare_ = 0;
   std::uint32_t next_unit_ = 0;
 };
 

@@ -55,7 +55,7 @@ class WideBvhChecker {
  private:
   void check(WideId id, const StoredBox& box, std::uint64_t depth) {
     ++nodes_;
-    const std::size_t bytes = is_leaf(id) ? leaf_bytes(lanes_of(id), tree_.layout) : node_bytes(tree_.width);
+    const std::size_t bytes = is_leaf(id) ? bytes_of_block(id) : node_bytes(tree_.width);
     demand(std::size_t{unit_of(id)} * kWideUnit + bytes + kWideSlack <= tree_.arena.size(),
            "an id is out of range");
     demand(depth <= static_cast<std::uint64_t>(kWideMaxDepth), "a node is too deep");
@@ -63,6 +63,11 @@ class WideBvhChecker {
       check_block(id, box, depth);
     else
       check_node(tree_.at(id), box, depth);
+  }
+
+  std::size_t bytes_of_block(WideId id) const {
+    const std::byte* block = tree_.at(id);
+    return is_compact(block) ? compact_bytes(block, lanes_of(id)) : leaf_bytes(lanes_of(id));
   }
 
   void check_node(const std::byte* node, const StoredBox& box, std::uint64_t depth) {
@@ -117,7 +122,11 @@ class WideBvhChecker {
         covered_[reference].hi[a] = std::max(covered_[reference].hi[a], box.hi[a]);
       }
     }
-    is_compact(block) ? check_compact(block, lanes) : check_full(block, lanes);
+    if (is_rounded(block)) return check_rounded(block, lanes);
+    if (is_compact(block)) check_indices(block, lanes);
+    LeafBound bound;
+    std::memcpy(&bound, block, sizeof bound);
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) check_lane(block, lanes, lane, bound);
   }
 
   /// The blocks that refer to a primitive must enclose it together.
@@ -136,13 +145,13 @@ class WideBvhChecker {
     }
   }
 
-  void check_full(const std::byte* block, std::uint32_t lanes) const {
-    LeafBound bound;
-    std::memcpy(&bound, block, sizeof bound);
-    for (std::uint32_t lane = 0; lane < lanes; ++lane) check_lane(block, lanes, lane, bound);
+  void check_indices(const std::byte* block, std::uint32_t lanes) const {
+    demand(distinct_of(block) <= kMostDistinct, "a block has too many corners");
+    for (std::uint32_t i = 0; i < 3 * lanes; ++i)
+      demand(index_row(block, lanes, 0)[i] < distinct_of(block), "a corner's index is out of range");
   }
 
-  void check_compact(const std::byte* block, std::uint32_t lanes) const {
+  void check_rounded(const std::byte* block, std::uint32_t lanes) const {
     bool are_triangles = true;
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       TriangleVertices ignored;
@@ -161,7 +170,7 @@ class WideBvhChecker {
     const TriangleVertices stored = compact_corners(block, lanes, lane);
     TriangleVertices triangle;
     source_.triangle(reference_row(block, lanes)[lane], triangle);
-    const double error = kCompactError * static_cast<double>(compact_head(block).step());
+    const double error = kCompactError * static_cast<double>(rounded_head(block).step());
     const Vec3d* const corners[] = {&stored.a, &stored.b, &stored.c};
     const Vec3d* const own[] = {&triangle.a, &triangle.b, &triangle.c};
     for (int i = 0; i < 3; ++i) {
@@ -171,7 +180,7 @@ class WideBvhChecker {
     }
     const double longest =
         std::max(length(stored.b - stored.a), length(stored.c - stored.a)) + 2 * error;
-    demand(static_cast<double>(compact_head(block).longest()) >= longest,
+    demand(static_cast<double>(rounded_head(block).longest()) >= longest,
            "a block's error bound is too small");
   }
 

@@ -16,8 +16,14 @@ void clear_boxes(std::byte* node, int width);
 /// Writes a child's box, rounded outward into the frame.
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame);
 
+/// Bytes of a block of these lanes in the tree's frame and layout.
+/// @param spare see compact_bytes()
+std::size_t block_bytes(std::span<const std::uint32_t> references, const WideTree& tree,
+                        const PrimitiveSource& source, std::uint64_t spare);
+
 /// Writes error bounds and corners of a block of these lanes, in the tree's frame and layout.
-void write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
-                 const PrimitiveSource& source);
+/// @return whether it fits into that many bytes; a full block does
+bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
+                 const PrimitiveSource& source, std::size_t bytes);
 
 }  // namespace strahl
