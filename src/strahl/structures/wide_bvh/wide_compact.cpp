@@ -148,12 +148,11 @@ TriangleVertices compact_corners(const std::byte* leaf, std::uint32_t lanes, std
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
 }
 
-std::size_t compact_bytes(const BlockCorners& corners, std::uint64_t spare) {
+BlockSizes compact_sizes(const BlockCorners& corners) {
   const Distinct distinct(corners);
-  const std::size_t rounded = rounded_bytes(corners.lanes);
-  const std::size_t indexed = indexed_bytes(corners.lanes, distinct.count);
-  const bool is_small_enough = units(indexed) <= units(rounded) + spare;
-  return distinct.count <= kMostDistinct && is_small_enough ? indexed : rounded;
+  constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max() / 2;
+  return {distinct.count <= kMostDistinct ? indexed_bytes(corners.lanes, distinct.count) : kNever,
+          rounded_bytes(corners.lanes)};
 }
 
 std::size_t compact_bytes(const std::byte* leaf, std::uint32_t lanes) {

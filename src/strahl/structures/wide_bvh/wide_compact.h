@@ -9,7 +9,7 @@
 //   rounded: origin x, y, z, a word; nine rows of n 16-bit numbers (a.x, a.y, a.z, b.x, ...). A
 //     coordinate is origin + step * number. The word's low 8 bits are the exponent of step, a power
 //     of two, the others those of a float: a bound of the lengths of the edges from corner a.
-// A block is indexed where that is small enough (compact_bytes), so meshes keep their very corners
+// A block is indexed where that is small enough (BlockSizes), so meshes keep their very corners
 //   and triangles that share nothing are rounded.
 // Invariants: origin + step * number is a float for all numbers that are used (origin is a multiple
 //   of step and both are below 2^24 steps), so it does not matter how the sum is rounded; it is
@@ -18,8 +18,11 @@
 // Differs from the paper: one step for all axes, blocks of triangles instead of boxes.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <strahl/geometry/mesh.h>
@@ -95,9 +98,16 @@ struct BlockCorners {
   std::array<TriangleVertices, kWideMaxLanes> in_frame;
 };
 
-/// Bytes of a block of these corners.
-/// @param spare units of 32 bytes that it may take beyond the smallest to keep its very corners
-std::size_t compact_bytes(const BlockCorners& corners, std::uint64_t spare);
+/// Bytes of a block, one way or the other.
+struct BlockSizes {
+  std::size_t indexed, rounded;
+
+  /// @param spare units of 32 bytes that it may take beyond rounded to keep its very corners
+  std::size_t bytes(std::uint64_t spare) const {
+    return units(indexed) <= units(rounded) + spare ? indexed : rounded;
+  }
+};
+BlockSizes compact_sizes(const BlockCorners& corners);
 /// Of a block that is written.
 std::size_t compact_bytes(const std::byte* leaf, std::uint32_t lanes);
 

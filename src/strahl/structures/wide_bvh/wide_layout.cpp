@@ -9,9 +9,9 @@ namespace strahl {
 namespace {
 
 /// What a compact tree may take per reference for the sake of exact corners, and how many units it
-/// may spend per block.
+/// may spend per block: most blocks need one, few with many triangles five.
 constexpr std::uint64_t kCompactBytes = 36;
-constexpr std::size_t kMostSpare = 1;
+constexpr std::size_t kMostSpare = 5;
 
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
@@ -64,9 +64,10 @@ class Layout {
     return children;
   }
 
-  /// Nodes begin with a cache line.
+  /// Nodes begin with a cache line. Compact ones of 224 bytes need not: they fill four lines anyway.
   template <class Count>
-  static Count aligned(Count unit) {
+  Count aligned(Count unit) const {
+    if (out_.layout == WideLayout::compact && out_.width == 8) return unit;
     return (unit + 1) / 2 * 2;
   }
 
@@ -82,12 +83,13 @@ class Layout {
       }
   }
 
-  /// By a block. Both totals are the same in the full layout.
+  /// By a block. All totals are the same in the full layout.
   void grow(std::uint32_t block) {
     Lanes room;
     const auto references = block_references(block, room);
+    const BlockSizes sizes = block_sizes(references, out_, source_);
     for (std::size_t spare = 0; spare <= kMostSpare; ++spare)
-      totals_[spare] += units(block_bytes(references, out_, source_, spare));
+      totals_[spare] += units(sizes.bytes(spare));
     references_ += references.size();
   }
 
@@ -118,7 +120,7 @@ class Layout {
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::uint32_t unit;
-    const std::size_t bytes = block_bytes(references, out_, source_, spare_);
+    const std::size_t bytes = block_sizes(references, out_, source_).bytes(spare_);
     std::byte* block = take(bytes, unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));

@@ -55,6 +55,8 @@ class WideBvhChecker {
  private:
   void check(WideId id, const StoredBox& box, std::uint64_t depth) {
     ++nodes_;
+    demand(std::size_t{unit_of(id)} * kWideUnit + kWideSlack < tree_.arena.size(),
+           "an id is out of range");
     const std::size_t bytes = is_leaf(id) ? bytes_of_block(id) : node_bytes(tree_.width);
     demand(std::size_t{unit_of(id)} * kWideUnit + bytes + kWideSlack <= tree_.arena.size(),
            "an id is out of range");

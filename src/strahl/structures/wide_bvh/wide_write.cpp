@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <strahl/math/float_round.h>
-#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
 
@@ -65,10 +64,11 @@ void write_box(std::byte* node, int width, int slot, const Aabb& box, const Wide
   }
 }
 
-std::size_t block_bytes(std::span<const std::uint32_t> references, const WideTree& tree,
-                        const PrimitiveSource& source, std::uint64_t spare) {
-  if (tree.layout == WideLayout::full) return leaf_bytes(references.size());
-  return compact_bytes(corners_of(references, tree.frame, source), spare);
+BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree& tree,
+                       const PrimitiveSource& source) {
+  const std::size_t full = leaf_bytes(references.size());
+  if (tree.layout == WideLayout::full) return {full, full};
+  return compact_sizes(corners_of(references, tree.frame, source));
 }
 
 bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
