@@ -98,14 +98,19 @@ class WideFloatTrace {
   /// The canonical t of candidates left whose corners are the scene's only.
   void settle_from_scene(WideSettled& settled, double* t) {
     WideCorners corners;
+    alignas(64) double found[kWideBlock];  // what is not left is written, too
     for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       TriangleVertices triangle;
       prims_.scene().triangle(known_.reference[i], triangle);
       corners.put(i, triangle);
     }
-    const std::uint64_t certain = kernel_.settle_given(rays_, corners, settled.left, t);
+    const std::uint64_t certain = kernel_.settle_given(rays_, corners, settled.left, found);
     settled.certain |= certain, settled.left &= ~certain;
+    for (std::uint64_t rest = certain; rest != 0; rest &= rest - 1) {
+      const auto i = std::countr_zero(rest);
+      t[i] = found[i];
+    }
   }
 
   static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {
