@@ -16,7 +16,7 @@ namespace strahl::test {
 namespace {
 
 const std::size_t kRays = is_full_run() ? 3000 : 170;
-const std::size_t kManyRays = is_full_run() ? 300'000 : is_smoke_run() ? 1'000 : 5'000;
+const std::size_t kManyRays = is_full_run() ? 300'000 : is_smoke_run() ? 300 : 1'500;
 
 constexpr const char *kNarrow = "wide_bvh:width=8,layout=compact",
                      *kWide = "wide_bvh:width=16,layout=compact",
@@ -72,16 +72,25 @@ Blocks blocks_of(const Scene& scene, WideWidth width) {
   return blocks;
 }
 
-class WideCompact : public testing::TestWithParam<std::string> {};
-
-TEST_P(WideCompact, AnswersLikeBruteForceWithEitherWidth) {
-  const ForcedIsa forced(GetParam().c_str());
+/// Each instruction set with either width, in turn where the run is short.
+TEST(WideCompactAll, AnswersLikeBruteForce) {
+  std::size_t scene = 0;
   for (const NamedScene& named : adversarial_scenes()) {
     const Expected expected = expected_answers(scene_of(named), kRays, 5);
-    for (const char* spec : {kNarrow, kWide})
-      ASSERT_EQ(first_difference(scene_of(named), spec, expected), "") << named.name << ' ' << spec;
+    std::size_t turn = scene++;
+    for (const std::string& isa : isas()) {
+      const ForcedIsa forced(isa.c_str());
+      const bool is_narrow = turn++ % 2 == 0;
+      for (const char* spec : {kNarrow, kWide}) {
+        if (!is_full_run() && is_narrow != (spec == kNarrow)) continue;
+        ASSERT_EQ(first_difference(scene_of(named), spec, expected), "")
+            << named.name << ' ' << spec << ' ' << isa;
+      }
+    }
   }
 }
+
+class WideCompact : public testing::TestWithParam<std::string> {};
 
 void expect_bundles_and_fans_like_bvh(const std::shared_ptr<const Scene>& scene) {
   const RaySet set = adversarial_rays(*scene, kManyRays, 92);
@@ -112,16 +121,16 @@ INSTANTIATE_TEST_SUITE_P(Isa, WideCompact, testing::ValuesIn(isas()),
                          [](const testing::TestParamInfo<std::string>& i) { return i.param; });
 
 /// What the tests above rely on.
-TEST(WideCompact, RoundsOnlyWhereTrianglesShareNothing) {
+TEST(WideCompactAll, RoundsOnlyWhereTrianglesShareNothing) {
   for (const WideWidth width : {WideWidth::eight, WideWidth::sixteen}) {
     const Blocks rounded = blocks_of(Scene(torn("gen:terrain:32", true)), width);
-    EXPECT_GT(rounded.rounded, rounded.all / 2);
+    EXPECT_GT(rounded.rounded, rounded.all / 3);
   }
   const Blocks whole = blocks_of(Scene(load_scene_data("gen:terrain:32")), WideWidth::sixteen);
   EXPECT_EQ(whole.rounded, 0u);
 }
 
-TEST(WideCompact, TakesAtMostThirtySixBytesPerTriangle) {
+TEST(WideCompactAll, TakesAtMostThirtySixBytesPerTriangle) {
   for (const char* name : {"gen:terrain:230", "gen:soup:101000"}) {
     const Scene scene(load_scene_data(name));
     const BuildReport report = WideBvh(scene, compact(WideWidth::sixteen), {}).report();

@@ -4,7 +4,8 @@
 // Source: numbers stored relative to the group they are in, as the boxes of
 //   [YlitieKarrasLaine2017]; here corners, and the exact test makes up for what rounding loses.
 // Layout: a head of 16 bytes whose last word is not 0, a row of n references, and
-//   indexed: the error bounds of a full block, a word of 256 m; three rows of m floats, the x, y and
+//   indexed: the error bounds of a full block, a word of 256 m; three rows of m floats, the x, y
+//   and
 //     z of m corners that differ in their bits; three rows of n bytes, which of them a, b, c are;
 //   rounded: origin x, y, z, a word; nine rows of n 16-bit numbers (a.x, a.y, a.z, b.x, ...). A
 //     coordinate is origin + step * number. The word's low 8 bits are the exponent of step, a power

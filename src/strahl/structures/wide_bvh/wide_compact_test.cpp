@@ -233,11 +233,10 @@ TEST(WideCompactBlock, ValidateSeesBrokenIndexedBlocks) {
                       const_cast<std::uint8_t&>(index_row(block, lanes, 1)[0]) = 200;
                     }),
             "wide_bvh: a corner's index is out of range");
-  EXPECT_EQ(verdict(false,
-                    [](std::byte* block, std::uint32_t) {
-                      reinterpret_cast<LeafBound*>(block)->constant *= 0.01f;
-                    }),
-            "wide_bvh: a block's error bound is too small");
+  EXPECT_EQ(
+      verdict(false, [](std::byte* block,
+                        std::uint32_t) { reinterpret_cast<LeafBound*>(block)->constant *= 0.01f; }),
+      "wide_bvh: a block's error bound is too small");
   EXPECT_EQ(verdict(false, [](std::byte* block, std::uint32_t) { head(block).word = 33u << 8; }),
             "wide_bvh: a block has too many corners");
 }
@@ -257,9 +256,9 @@ TEST(WideCompactBlock, ValidateSeesBrokenRoundedBlocks) {
                                          (head(block).word & 0xffu);
                     }),
             "wide_bvh: a block's error bound is too small");
-  EXPECT_EQ(verdict(true, [](std::byte* block, std::uint32_t) { head(block).word = 0; })
-                .substr(0, 10),
-            "wide_bvh: ");
+  EXPECT_EQ(
+      verdict(true, [](std::byte* block, std::uint32_t) { head(block).word = 0; }).substr(0, 10),
+      "wide_bvh: ");
 }
 
 /// All corners moved, those that were one staying one.

@@ -64,7 +64,8 @@ class Layout {
     return children;
   }
 
-  /// Nodes begin with a cache line. Compact ones of 224 bytes need not: they fill four lines anyway.
+  /// Nodes begin with a cache line. Compact ones of 224 bytes need not: they fill four lines
+  /// anyway.
   template <class Count>
   Count aligned(Count unit) const {
     if (out_.layout == WideLayout::compact && out_.width == 8) return unit;

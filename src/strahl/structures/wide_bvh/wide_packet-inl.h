@@ -155,7 +155,8 @@ class Packet {
   /// Whether any ray of the group has become shorter.
   template <bool kIsPencil>
   HWY_INLINE bool test_group(WideId id, const BlockView& block, std::uint32_t first,
-                             std::uint32_t group, std::uint32_t triangles, const typename Leaf::Pencil& pencil) {
+                             std::uint32_t group, std::uint32_t triangles,
+                             const typename Leaf::Pencil& pencil) {
     const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
     bool is_shorter = false;
     for (; triangles != 0 && group != 0; triangles &= triangles - 1) {

@@ -150,7 +150,8 @@ class WideBvhChecker {
   void check_indices(const std::byte* block, std::uint32_t lanes) const {
     demand(distinct_of(block) <= kMostDistinct, "a block has too many corners");
     for (std::uint32_t i = 0; i < 3 * lanes; ++i)
-      demand(index_row(block, lanes, 0)[i] < distinct_of(block), "a corner's index is out of range");
+      demand(index_row(block, lanes, 0)[i] < distinct_of(block),
+             "a corner's index is out of range");
   }
 
   void check_rounded(const std::byte* block, std::uint32_t lanes) const {
