@@ -8,7 +8,7 @@
 namespace strahl {
 namespace {
 
-/// What a compact tree may take per reference for the sake of exact corners, and how many units it
+/// What a compact tree may take per thing for the sake of exact corners, and how many units it
 /// may spend per block: most blocks need one, few with many triangles five.
 constexpr std::uint64_t kCompactBytes = 36;
 constexpr std::size_t kMostSpare = 5;
@@ -91,12 +91,11 @@ class Layout {
     const BlockSizes sizes = block_sizes(references, out_, source_);
     for (std::size_t spare = 0; spare <= kMostSpare; ++spare)
       totals_[spare] += units(sizes.bytes(spare));
-    references_ += references.size();
   }
 
-  /// As many as kCompactBytes per reference allow.
+  /// As many as kCompactBytes per thing allow.
   void choose_spare() {
-    const std::uint64_t allowed = kCompactBytes * references_ / kWideUnit;
+    const std::uint64_t allowed = kCompactBytes * source_.size() / kWideUnit;
     while (spare_ < kMostSpare && totals_[spare_ + 1] <= allowed) ++spare_;
     total_units_ = totals_[spare_];
   }
@@ -174,7 +173,7 @@ class Layout {
   const BuildContext& context_;
   BuildReport& report_;
   std::array<std::uint64_t, kMostSpare + 1> totals_{};  ///< per spare
-  std::uint64_t total_units_ = 0, references_ = 0, spare_ = 0;
+  std::uint64_t total_units_ = 0, spare_ = 0;
   std::uint32_t next_unit_ = 0;
 };
 
