@@ -1,8 +1,8 @@
 // wide_bvh with every instruction set of the machine and both widths, against brute force on the
 // adversarial scenes and against bvh with many rays on larger ones: the same bits.
 #include <cmath>
-#include <cstdlib>
 #include <tests/conformance/float_ray_set.h>
+#include <tests/conformance/forced_isa.h>
 #include <tests/conformance/oracle.h>
 #include <tests/conformance/scenes.h>
 
@@ -18,21 +18,6 @@ namespace {
 
 const std::size_t kRays = is_full_run() ? 3000 : 170;
 const std::size_t kManyRays = is_full_run() ? 1'000'000 : is_smoke_run() ? 2'000 : 20'000;
-
-/// Forces an instruction set for structures built during its life.
-class ForcedIsa {
- public:
-  explicit ForcedIsa(const char* isa) { ::setenv("STRAHL_ISA", isa, 1); }
-  ~ForcedIsa() { ::unsetenv("STRAHL_ISA"); }
-  ForcedIsa(const ForcedIsa&) = delete;
-  ForcedIsa& operator=(const ForcedIsa&) = delete;
-};
-
-std::vector<std::string> isas() {
-  std::vector<std::string> names;
-  for (const WideKernel* kernel : wide_kernels()) names.emplace_back(kernel->isa);
-  return names;
-}
 
 class WideKernels : public testing::TestWithParam<std::string> {};
 

@@ -100,7 +100,10 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  std::vector<Case> all{{"bvh", ""}, {"wide_bvh:batch=single", ""}, {"wide_bvh:quality=high", ""}};
+  std::vector<Case> all{{"bvh", ""},
+                        {"wide_bvh:batch=single", ""},
+                        {"wide_bvh:quality=high", ""},
+                        {"wide_bvh:layout=compact", ""}};
   for (const WideKernel* kernel : wide_kernels()) all.push_back({"wide_bvh", kernel->isa});
   return all;
 }

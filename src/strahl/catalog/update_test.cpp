@@ -81,7 +81,7 @@ TEST(Update, EveryFrameOfADeformingMeshHasTheBitsOfOneBuiltAnew) {
        {"bvh", "bvh:rebuild_factor=1", "bvh:bv=sphere,traversal=heap,rebuild_factor=100",
         "bvh:builder=spatial,duplicates=1,rebuild_factor=100", "bvh:arity=8,bv=auto", "wide_bvh",
         "wide_bvh:rebuild_factor=1", "wide_bvh:width=8,rebuild_factor=100",
-        "wide_bvh:quality=high,rebuild_factor=100"}) {
+        "wide_bvh:quality=high,rebuild_factor=100", "wide_bvh:layout=compact,rebuild_factor=100"}) {
     SCOPED_TRACE(spec);
     const auto bvh = build(rest, spec);
     for (int frame = 0; frame < 4; ++frame) {
@@ -112,7 +112,8 @@ TEST(Update, FollowsPosesAndShapesTogether) {
 TEST(Update, FollowsTrianglesThatVanishAndComeBack) {
   const MeshMaker mesh = cloth(8);
   const ScenePtr rest = cloth_scene(mesh);
-  for (const char* spec : {"bvh:rebuild_factor=1000", "wide_bvh:rebuild_factor=1000"}) {
+  for (const char* spec : {"bvh:rebuild_factor=1000", "wide_bvh:rebuild_factor=1000",
+                           "wide_bvh:layout=compact,rebuild_factor=1000"}) {
     const auto bvh = build(rest, spec);
     for (const std::size_t flat : {3u, 9u, 0u}) {
       MeshMaker folded = mesh;

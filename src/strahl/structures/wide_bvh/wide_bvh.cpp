@@ -77,6 +77,9 @@ OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
              "children of a node (auto: what suits the instruction set)"),
       option("leaf_size", &WideBvhOptions::leaf_size, 0, static_cast<int>(kWideMaxLanes),
              "most primitives in a block; 0: the width"),
+      option("layout", &WideBvhOptions::layout,
+             {{"full", WideLayout::full}, {"compact", WideLayout::compact}},
+             "corners in blocks: each as floats, or once, or rounded to 16 bits"),
       option("batch", &WideBvhOptions::batch,
              {{"interleaved", WideBatch::interleaved}, {"single", WideBatch::single}},
              "float rays of a batch: many under way at once, or one after the other"),
@@ -93,8 +96,9 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   context.require_memory(refs.size() * bytes_per_primitive(width), "wide_bvh");
   Aabb box;
   for (const PrimRef& ref : refs) box.extend(ref.box);
-  const bool all_floats = have_float_corners(refs, source);
-  const WideFrame frame = make_wide_frame(box);
+  WideTree empty;
+  empty.width = width, empty.layout = options.layout, empty.frame = make_wide_frame(box);
+  empty.has_exact_corners = have_float_corners(refs, source) && empty.frame.is_identity();
   CollapseRules rules;
   rules.width = width;
   rules.max_leaf =
@@ -103,8 +107,7 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   if (options.quality == WideQuality::high) tree = reinserted(std::move(tree), context);
   const Collapse collapse(tree, rules, context);
   report_.sah_cost = built_cost_ = collapse.cost();
-  tree_ = lay_out_wide(tree, collapse, width, frame, all_floats && frame.is_identity(), source,
-                       context, report_);
+  tree_ = lay_out_wide(tree, collapse, std::move(empty), source, context, report_);
 }
 
 void WideBvh::refit(const PrimitiveSource& source, const BuildContext& context) {

@@ -30,6 +30,7 @@ struct WideBvhOptions {
   WideQuality quality = WideQuality::balanced;
   WideWidth width = WideWidth::automatic;
   int leaf_size = 0;
+  WideLayout layout = WideLayout::full;
   WideBatch batch = WideBatch::interleaved;
   double rebuild_factor = 1.5;
 };

@@ -2,6 +2,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <tests/support/wide_breaker.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -14,49 +15,6 @@
 #include <strahl/structures/wide_bvh/wide_order.h>
 
 namespace strahl {
-
-/// Reaches into a finished tree.
-class WideBvhBreaker {
- public:
-  explicit WideBvhBreaker(WideBvh& bvh) : tree(bvh.tree_), report(bvh.report_) {}
-
-  std::byte* at(WideId id) { return tree.arena.data() + std::size_t{unit_of(id)} * kWideUnit; }
-  float* planes(WideId node, int row) {
-    return reinterpret_cast<float*>(at(node)) + row * tree.width;
-  }
-  WideId* children(WideId node) { return reinterpret_cast<WideId*>(planes(node, 6)); }
-  int used_slot(WideId node) {
-    int slot = 0;
-    while (!(planes(node, 0)[slot] <= planes(node, 3)[slot])) ++slot;
-    return slot;
-  }
-  int empty_slot(WideId node) {
-    int slot = 0;
-    while (planes(node, 0)[slot] <= planes(node, 3)[slot]) ++slot;
-    return slot;
-  }
-  /// Some block of at least two lanes.
-  WideId block() { return find_block(tree.root); }
-  float* corners(WideId leaf) { return reinterpret_cast<float*>(at(leaf) + sizeof(LeafBound)); }
-  std::uint32_t* references(WideId leaf) {
-    return reinterpret_cast<std::uint32_t*>(corners(leaf)) + 9 * lanes_of(leaf);
-  }
-  LeafBound& bound(WideId leaf) { return *reinterpret_cast<LeafBound*>(at(leaf)); }
-
-  WideTree& tree;
-  BuildReport& report;
-
- private:
-  WideId find_block(WideId id) {
-    if (is_leaf(id)) return lanes_of(id) >= 2 ? id : 0;
-    for (int slot = 0; slot < tree.width; ++slot) {
-      if (!(planes(id, 0)[slot] <= planes(id, 3)[slot])) continue;
-      if (const WideId found = find_block(children(id)[slot])) return found;
-    }
-    return 0;
-  }
-};
-
 namespace {
 
 SceneData random_triangles(std::size_t count, double size, std::uint64_t seed) {
@@ -199,11 +157,14 @@ SceneData mixed_triangles() {
 }
 
 TEST(WideBvh, KnowsItsSizeBeforeItIsBuilt) {
+  const Scene large(mixed_triangles()), small(random_triangles(500, 0.1, 9));
   for (const WideQuality quality : kQualities)
-    for (const WideWidth width : {WideWidth::eight, WideWidth::sixteen}) {
-      const Scene large(mixed_triangles()), small(random_triangles(500, 0.1, 9));
-      const auto ratio = [&](const Scene& scene) {
-        const WideBvhOptions options = with(quality, width);
+    for (const auto& [width, layout] : {std::pair(WideWidth::eight, WideLayout::full),
+                                        std::pair(WideWidth::sixteen, WideLayout::full),
+                                        std::pair(WideWidth::sixteen, WideLayout::compact)}) {
+      const auto ratio = [&, width = width, layout = layout](const Scene& scene) {
+        WideBvhOptions options = with(quality, width);
+        options.layout = layout;
         const auto bytes = static_cast<double>(WideBvh(scene, options, {}).report().bytes);
         return static_cast<double>(WideBvh::estimate_bytes(scene, options, {})) / bytes;
       };

@@ -37,11 +37,11 @@ LeafBound leaf_bound(std::span<const LaneCorners> lanes) {
     error = std::max(error, lane.error);
   }
   const double L = 1.0001 * longest + 2 * error;
-  const double per_distance = kUnit * 18.6 * L + 4 * error;
+  const double per_distance = kUnit * 18.6 * L;
   const double constant = kUnit * 23.6 * L * L + 10 * error * L + 1e-30;
   // 1.7321 = sqrt 3 turns a largest component into a norm; 1.0002 covers |d| and these roundings.
   return {-float_above(1.0002 * 1.7321 * per_distance), -float_above(1.0002 * constant),
-          float_above((error > 0.0 ? 2.1 : 1.4) * L), 0.0f};
+          float_above(1.4 * L), 0};
 }
 
 }  // namespace strahl

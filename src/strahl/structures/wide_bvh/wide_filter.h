@@ -32,9 +32,18 @@
 // of comparisons, quotient and interval; canonical t is within 2^-40 of t, which 6 u covers, too.
 // That is below 1.4 L E / |d|. A wrong sign of det implies |T| <= t ddet + dT, the same bound.
 //
-// Corners rounded into the frame (not has_exact_corners) are off by up to y each. With L + 2 y for
-// L:
-//   E gains y |d| (10 L + 4 S),  |T - t D| gains y L (5 L + 8 S), which 2.1 L E / |d| covers.
+// Corners rounded into the frame, or to 16 bits, are off by up to y each: e1 and e2 by 2 y, s by y.
+// U = d . (e2 x s) moves by that of e2 times |s x d| = |d| R, R the distance of the line from a,
+// and by y |d| (L + 2 y). A line that crosses the true or the stored triangle has R <= its L, so S
+// does not matter:
+//   U and V move by at most y |d| (3 L + 2 y), W, whose edge is up to 2 L long, by y |d| (6 L + 2
+//   y), det by y |d| (4 L + 4 y).
+// A true hit is stored with values above -y |d| (10 L + 6 y), the worst case W <= det where the
+// sign of det is lost; so E gains y |d| 10 (L + 2 y), with L + 2 y for L everywhere. A lane whose
+// computed values are above E crosses the stored triangle with values above that gain, so it
+// crosses the true one, too.
+// T - t det = (a - p) . n at the true point p moves by y (5 L^2 + 8 y L), whatever det is; it is in
+// 1.4 L E / |d|.
 // The constant -1e-30 covers what underflows at the magnitudes of a frame (at most 2^-126 2^22 per
 // operation, also with subnormals flushed) and keeps -E negative, so that 0 >= 0 is uncertain.
 #pragma once

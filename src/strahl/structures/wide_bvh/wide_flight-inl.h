@@ -107,10 +107,11 @@ class Flight {
       const std::uint32_t ray = ray_of(leaves_[i]);
       const WideId id = id_of(leaves_[i]);
       const std::byte* at = base_ + std::size_t{unit_of(id)} * kWideUnit;
+      const BlockView block = view<W>(at, lanes_of(id), expanded_);
       const LeafTest<W> leaf_test(job_.rays, ray);
       typename LeafTest<W>::Values values;
       const float upper = job_.answers.upper[ray];
-      leaf_test.test(at, lanes_of(id), 0, hn::Set(D(), upper), values);
+      leaf_test.test(block, 0, hn::Set(D(), upper), values);
       if (values.possible != 0) {
         if (Taker<W, M>(job_, ray).take(id, 0, leaf_test, values)) {
           ended_ |= std::uint64_t{1} << ray;
@@ -140,6 +141,7 @@ class Flight {
   // One more: what does not count is written, too.
   Place nodes_[kWideBlock + 1], leaves_[kWideBlock + 1];
   std::size_t top_[kWideBlock];  ///< behind what waits
+  ExpandedBlock<W> expanded_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -86,7 +86,8 @@ class WideFloatTrace {
   void settle_all() {
     alignas(64) double t[kWideBlock];
     WideSettled settled = kernel_.settle(tree_, rays_, known_, t);
-    if (!tree_.has_exact_corners && settled.left != 0) settled = settle_doubles(settled.left, t);
+    const bool has_all = tree_.has_exact_corners && tree_.layout == WideLayout::full;
+    if (!has_all && settled.left != 0) settle_from_scene(settled, t);
     for (std::uint64_t rest = settled.certain; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       take_candidate(i, t[i]);
@@ -95,17 +96,22 @@ class WideFloatTrace {
       settle(static_cast<std::uint32_t>(std::countr_zero(rest)));
   }
 
-  /// The canonical t of candidates whose corners are the scene's only.
-  WideSettled settle_doubles(std::uint64_t candidates, double* t) {
+  /// The canonical t of candidates left whose corners are the scene's only.
+  void settle_from_scene(WideSettled& settled, double* t) {
     WideCorners corners;
-    for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1) {
+    alignas(64) double found[kWideBlock];  // what is not left is written, too
+    for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
       TriangleVertices triangle;
       prims_.scene().triangle(known_.reference[i], triangle);
       corners.put(i, triangle);
     }
-    const std::uint64_t certain = kernel_.settle_given(rays_, corners, candidates, t);
-    return {certain, candidates & ~certain};
+    const std::uint64_t certain = kernel_.settle_given(rays_, corners, settled.left, found);
+    settled.certain |= certain, settled.left &= ~certain;
+    for (std::uint64_t rest = certain; rest != 0; rest &= rest - 1) {
+      const auto i = std::countr_zero(rest);
+      t[i] = found[i];
+    }
   }
 
   static bool resolve(WideJob& job, std::uint32_t ray, WideId leaf, std::uint32_t lanes) {
@@ -183,7 +189,7 @@ class WideFloatTrace {
     const std::uint32_t lanes = lanes_of(candidate), lane = known_.lane[i];
     const Vec3d org(given_.org(first_ + i)), dir(given_.dir(first_ + i));
     TriangleVertices triangle;
-    if (tree_.has_exact_corners)
+    if (tree_.is_exact(leaf))
       triangle = stored_corners(leaf, lanes, lane);
     else
       prims_.scene().triangle(known_.reference[i], triangle);

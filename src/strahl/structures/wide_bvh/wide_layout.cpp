@@ -1,11 +1,17 @@
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
 
 namespace strahl {
 namespace {
+
+/// What a compact tree may take per thing for the sake of exact corners, and how many units it
+/// may spend per block: most blocks need one, few with many triangles five.
+constexpr std::uint64_t kCompactBytes = 36;
+constexpr std::size_t kMostSpare = 5;
 
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
@@ -30,9 +36,10 @@ class Layout {
 
   void run() {
     if (collapse_.is_block(0))
-      total_units_ = units(leaf_bytes(lanes_of_block(0)));
+      grow(0);
     else
       measure(0);
+    choose_spare();
     if (total_units_ > kWideMaxUnits)
       throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
     const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
@@ -57,22 +64,40 @@ class Layout {
     return children;
   }
 
-  /// Nodes begin with a cache line.
+  /// Nodes begin with a cache line. Compact ones of 224 bytes need not: they fill four lines
+  /// anyway.
   template <class Count>
-  static Count aligned(Count unit) {
+  Count aligned(Count unit) const {
+    if (out_.layout == WideLayout::compact && out_.width == 8) return unit;
     return (unit + 1) / 2 * 2;
   }
 
   void measure(std::uint32_t node) {
-    total_units_ = aligned(total_units_) + units(node_bytes(out_.width));
+    for (std::uint64_t& total : totals_) total = aligned(total) + units(node_bytes(out_.width));
     for (const bool blocks : {true, false})
       for (const std::uint32_t child : children_of(node)) {
         if (collapse_.is_block(child) != blocks) continue;
         if (blocks)
-          total_units_ += units(leaf_bytes(lanes_of_block(child)));
+          grow(child);
         else
           measure(child);
       }
+  }
+
+  /// By a block. All totals are the same in the full layout.
+  void grow(std::uint32_t block) {
+    Lanes room;
+    const auto references = block_references(block, room);
+    const BlockSizes sizes = block_sizes(references, out_, source_);
+    for (std::size_t spare = 0; spare <= kMostSpare; ++spare)
+      totals_[spare] += units(sizes.bytes(spare));
+  }
+
+  /// As many as kCompactBytes per thing allow.
+  void choose_spare() {
+    const std::uint64_t allowed = kCompactBytes * source_.size() / kWideUnit;
+    while (spare_ < kMostSpare && totals_[spare_ + 1] <= allowed) ++spare_;
+    total_units_ = totals_[spare_];
   }
 
   std::byte* take(std::size_t bytes, std::uint32_t& unit) {
@@ -89,20 +114,17 @@ class Layout {
     std::sort(room.begin(), end);
     return {room.begin(), std::unique(room.begin(), end)};
   }
-  std::size_t lanes_of_block(std::uint32_t node) const {
-    Lanes room;
-    return block_references(node, room).size();
-  }
 
   WideId write_block(std::uint32_t node, std::uint64_t depth) {
     Lanes room;
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::uint32_t unit;
-    std::byte* block = take(leaf_bytes(lanes), unit);
+    const std::size_t bytes = block_sizes(references, out_, source_).bytes(spare_);
+    std::byte* block = take(bytes, unit);
     std::copy(references.begin(), references.end(),
-              const_cast<std::uint32_t*>(reference_row(block, lanes)));
-    strahl::write_block(block, references, out_.frame, source_);
+              const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
+    strahl::write_block(block, references, out_, source_, bytes);
     ++report_.nodes, ++report_.leaves, report_.references += lanes;
     report_.depth = std::max(report_.depth, depth);
     return kWideLeaf | unit << 4 | (lanes - 1);
@@ -150,7 +172,8 @@ class Layout {
   const PrimitiveSource& source_;
   const BuildContext& context_;
   BuildReport& report_;
-  std::uint64_t total_units_ = 0;
+  std::array<std::uint64_t, kMostSpare + 1> totals_{};  ///< per spare
+  std::uint64_t total_units_ = 0, spare_ = 0;
   std::uint32_t next_unit_ = 0;
 };
 
@@ -177,11 +200,10 @@ void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width
   }
 }
 
-WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
-                      bool has_exact_corners, const PrimitiveSource& source,
-                      const BuildContext& context, BuildReport& report) {
-  WideTree out;
-  out.width = width, out.frame = frame, out.has_exact_corners = has_exact_corners;
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, WideTree empty,
+                      const PrimitiveSource& source, const BuildContext& context,
+                      BuildReport& report) {
+  WideTree out = std::move(empty);
   Layout(tree, collapse, out, source, context, report).run();
   out.depth = report.depth;
   return out;

@@ -17,9 +17,10 @@ void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width
 /// Writes nodes depth first, each followed by its blocks and then its inner children. Adds nodes,
 /// leaves, references, depth and bytes to the report.
 /// Throws Error{resource} above the memory limit or 4 GiB, Error{cancelled}.
+/// @param empty a tree that says width, layout, frame and whether corners are exact
 /// @param source whose things the references are
-WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
-                      bool has_exact_corners, const PrimitiveSource& source,
-                      const BuildContext& context, BuildReport& report);
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, WideTree empty,
+                      const PrimitiveSource& source, const BuildContext& context,
+                      BuildReport& report);
 
 }  // namespace strahl

@@ -9,6 +9,7 @@
 #define STRAHL_WIDE_LEAF_INL_H_
 #endif
 
+#include <strahl/structures/wide_bvh/wide_expand-inl.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
 
@@ -55,21 +56,21 @@ class LeafTest {
         blur2_(hn::Load(D(), rays.t_blur2 + first)) {}
 
   /// Lanes part * kLanes and up that may be hit at or before `upper`.
-  HWY_INLINE void test(const std::byte* leaf, std::uint32_t lanes, int part, V upper,
-                       Values& r) const {
-    const float* row = corner_row(leaf, lanes, 0) + part * L::kLanes;
-    measure(leaf, load(row, lanes), load(row + 3 * lanes, lanes), load(row + 6 * lanes, lanes),
-            upper, r);
-    const std::uint32_t left = lanes - static_cast<std::uint32_t>(part * L::kLanes);
+  HWY_INLINE void test(const BlockView& block, int part, V upper, Values& r) const {
+    const std::uint32_t stride = block.stride;
+    const float* row = corner_row(block.at, stride, 0) + part * L::kLanes;
+    measure(block.at, load(row, stride), load(row + 3 * stride, stride),
+            load(row + 6 * stride, stride), upper, r);
+    const std::uint32_t left = block.lanes - static_cast<std::uint32_t>(part * L::kLanes);
     r.possible &= (2u << ((left < L::kLanes ? left : L::kLanes) - 1)) - 1;
   }
 
   /// Rays that may hit the triangle of one lane at or before their `upper`.
-  HWY_INLINE void test_one(const std::byte* leaf, std::uint32_t lanes, std::uint32_t lane, V upper,
-                           Values& r) const {
-    const float* row = corner_row(leaf, lanes, 0) + lane;
-    measure(leaf, corner(row, lanes), corner(row + 3 * lanes, lanes),
-            corner(row + 6 * lanes, lanes), upper, r);
+  HWY_INLINE void test_one(const BlockView& block, std::uint32_t lane, V upper, Values& r) const {
+    const std::uint32_t stride = block.stride;
+    const float* row = corner_row(block.at, stride, 0) + lane;
+    measure(block.at, corner(row, stride), corner(row + 3 * stride, stride),
+            corner(row + 6 * stride, stride), upper, r);
   }
 
   /// The triangles of a block as all rays from this ray's origin see them: with the origin given,
@@ -78,17 +79,18 @@ class LeafTest {
   struct Pencil {
     alignas(64) float det[3][W], u[3][W], v[3][W], t[W], error[W], t_error[W];
   };
-  HWY_INLINE void project(const std::byte* leaf, std::uint32_t lanes, Pencil& pencil) const {
+  HWY_INLINE void project(const BlockView& block, Pencil& pencil) const {
+    const std::uint32_t stride = block.stride;
     for (int part = 0; part < L::kParts; ++part) {
       const int at = part * L::kLanes;
-      const float* row = corner_row(leaf, lanes, 0) + at;
-      const V3 a = load(row, lanes), s = minus(org_, a);
-      const V3 e1 = minus(load(row + 3 * lanes, lanes), a);
-      const V3 e2 = minus(load(row + 6 * lanes, lanes), a), q = cross(s, e1);
+      const float* row = corner_row(block.at, stride, 0) + at;
+      const V3 a = load(row, stride), s = minus(org_, a);
+      const V3 e1 = minus(load(row + 3 * stride, stride), a);
+      const V3 e2 = minus(load(row + 6 * stride, stride), a), q = cross(s, e1);
       store(cross(e2, e1), pencil.det, at), store(cross(e2, s), pencil.u, at);
       store(q, pencil.v, at);
       Values r;
-      bound(leaf, s, r);
+      bound(block.at, s, r);
       hn::Store(dot(e2, q), D(), pencil.t + at);
       hn::Store(r.error, D(), pencil.error + at), hn::Store(r.t_error, D(), pencil.t_error + at);
     }
@@ -188,11 +190,11 @@ class LeafTest {
   HWY_INLINE static V3 rows(const WideRays::Row* v, std::uint32_t first) {
     return {hn::Load(D(), v[0] + first), hn::Load(D(), v[1] + first), hn::Load(D(), v[2] + first)};
   }
-  HWY_INLINE static V3 corner(const float* row, std::uint32_t lanes) {
-    return {hn::Set(D(), row[0]), hn::Set(D(), row[lanes]), hn::Set(D(), row[2 * lanes])};
+  HWY_INLINE static V3 corner(const float* row, std::uint32_t stride) {
+    return {hn::Set(D(), row[0]), hn::Set(D(), row[stride]), hn::Set(D(), row[2 * stride])};
   }
-  HWY_INLINE static V3 load(const float* row, std::uint32_t lanes) {
-    return {hn::LoadU(D(), row), hn::LoadU(D(), row + lanes), hn::LoadU(D(), row + 2 * lanes)};
+  HWY_INLINE static V3 load(const float* row, std::uint32_t stride) {
+    return {hn::LoadU(D(), row), hn::LoadU(D(), row + stride), hn::LoadU(D(), row + 2 * stride)};
   }
   HWY_INLINE static V3 minus(const V3& a, const V3& b) {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};

@@ -136,26 +136,28 @@ class Packet {
   template <bool kIsPencil>
   void test_block(WideId id, std::uint64_t rays) {
     typename Leaf::Pencil pencil;
-    std::uint32_t triangles = (2u << (lanes_of(id) - 1)) - 1;
+    ExpandedBlock<W> room;
+    const BlockView block = view<W>(job_.tree.at(id), lanes_of(id), room);
+    std::uint32_t triangles = (2u << (block.lanes - 1)) - 1;
     if constexpr (kIsPencil) {
-      Leaf(job_.rays, 0).project(job_.tree.at(id), lanes_of(id), pencil);
+      Leaf(job_.rays, 0).project(block, pencil);
       triangles &= cull_.lanes(pencil);
     }
     bool is_shorter = false;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
       auto group = static_cast<std::uint32_t>(rays >> first & kGroup);
-      if (group != 0) is_shorter |= test_group<kIsPencil>(id, first, group, triangles, pencil);
+      if (group != 0)
+        is_shorter |= test_group<kIsPencil>(id, block, first, group, triangles, pencil);
     }
     if (is_shorter) find_farthest();
   }
 
   /// Whether any ray of the group has become shorter.
   template <bool kIsPencil>
-  HWY_INLINE bool test_group(WideId id, std::uint32_t first, std::uint32_t group,
-                             std::uint32_t triangles, const typename Leaf::Pencil& pencil) {
+  HWY_INLINE bool test_group(WideId id, const BlockView& block, std::uint32_t first,
+                             std::uint32_t group, std::uint32_t triangles,
+                             const typename Leaf::Pencil& pencil) {
     const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
-    const std::byte* block = job_.tree.at(id);
-    const std::uint32_t lanes = lanes_of(id);
     bool is_shorter = false;
     for (; triangles != 0 && group != 0; triangles &= triangles - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(triangles));
@@ -164,7 +166,7 @@ class Packet {
       if constexpr (kIsPencil)
         test.test_projected(pencil, lane, upper, values);
       else
-        test.test_one(block, lanes, lane, upper, values);
+        test.test_one(block, lane, upper, values);
       values.possible &= group;
       if (values.possible == 0) continue;
       group &= ~take(id, lane, first, test, values);

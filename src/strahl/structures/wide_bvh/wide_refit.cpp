@@ -6,6 +6,7 @@
 
 #include <strahl/base/build_context.h>
 #include <strahl/build/collapse.h>
+#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_refit.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
@@ -52,6 +53,8 @@ class Fitter {
 
   /// @returns the cost
   double run() { return fit(tree_.root, 0).cost; }
+  /// Whether each block is no larger than it was; compact ones may be.
+  bool all_fit() const { return all_fit_; }
 
  private:
   struct Fitted {
@@ -66,13 +69,19 @@ class Fitter {
 
   Fitted fit(WideId id, int depth) { return is_leaf(id) ? fit_block(id) : fit_node(id, depth); }
 
+  /// Bytes of a block up to the next one.
+  static std::size_t room(const std::byte* block, std::uint32_t lanes) {
+    const std::size_t bytes = is_compact(block) ? compact_bytes(block, lanes) : leaf_bytes(lanes);
+    return units(bytes) * kWideUnit;
+  }
+
   Fitted fit_block(WideId id) {
     std::byte* block = at(id);
     const std::uint32_t lanes = lanes_of(id);
     const std::span references(reference_row(block, lanes), lanes);
     Fitted fitted;
     for (const std::uint32_t reference : references) fitted.box.extend(things_.boxes[reference]);
-    write_block(block, references, tree_.frame, source_);
+    if (!write_block(block, references, tree_, source_, room(block, lanes))) all_fit_ = false;
     fitted.cost = share(fitted.box) * (rules_.leaf_cost + rules_.primitive_cost * lanes);
     return fitted;
   }
@@ -109,6 +118,7 @@ class Fitter {
   const PrimitiveSource& source_;
   const BuildContext& context_;
   CollapseRules rules_;
+  std::atomic<bool> all_fit_{true};
 };
 
 /// Marks what the blocks refer to.
@@ -147,9 +157,12 @@ std::optional<FittedWideTree> fit_wide_tree(const WideTree& tree, const Primitiv
   out.arena = WideArena(tree.arena.size());
   std::memcpy(out.arena.data(), tree.arena.data(), tree.arena.size());
   out.root = tree.root, out.width = tree.width, out.depth = tree.depth;
+  out.layout = tree.layout;
   out.frame = make_wide_frame(things.whole);
   out.has_exact_corners = things.all_floats && out.frame.is_identity();
-  fitted.cost = Fitter(out, things, source, context).run();
+  Fitter fitter(out, things, source, context);
+  fitted.cost = fitter.run();
+  if (!fitter.all_fit()) return std::nullopt;
   return fitted;
 }
 

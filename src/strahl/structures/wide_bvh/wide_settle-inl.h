@@ -10,6 +10,7 @@
 #define STRAHL_WIDE_SETTLE_INL_H_
 #endif
 
+#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
 
@@ -18,14 +19,32 @@ namespace strahl {
 namespace HWY_NAMESPACE {
 
 /// Corners of candidates as blocks of the tree hold them.
-struct StoredCorners {
+class StoredCorners {
+ public:
   alignas(64) float rows[9][kWideBlock];
 
-  HWY_INLINE void put(const WideTree& tree, const WideAnswers& answers, std::uint32_t ray) {
+  /// Returns whether the block has the very corners.
+  HWY_INLINE bool put(const WideTree& tree, const WideAnswers& answers, std::uint32_t ray) {
     const WideId leaf = answers.candidate[ray];
+    const std::byte* block = tree.at(leaf);
     const std::uint32_t lanes = lanes_of(leaf);
-    const float* corner = corner_row(tree.at(leaf), lanes, 0) + answers.lane[ray];
+    if (HWY_UNLIKELY(is_compact(block)))
+      return !is_rounded(block) && put_indexed(block, lanes, answers.lane[ray], ray);
+    const float* corner = corner_row(block, lanes, 0) + answers.lane[ray];
     for (int row = 0; row < 9; ++row, corner += lanes) rows[row][ray] = *corner;
+    return true;
+  }
+
+ private:
+  HWY_INLINE bool put_indexed(const std::byte* block, std::uint32_t lanes, std::uint32_t lane,
+                              std::uint32_t ray) {
+    const std::uint32_t size = distinct_of(block);
+    const float* const tables = distinct_row(block, lanes, 0);
+    const std::uint8_t* index = index_row(block, lanes, 0) + lane;
+    for (int corner = 0; corner < 3; ++corner, index += lanes)
+      for (int axis = 0; axis < 3; ++axis)
+        rows[3 * corner + axis][ray] = tables[static_cast<std::uint32_t>(axis) * size + *index];
+    return true;
   }
 };
 
@@ -121,9 +140,12 @@ inline WideSettled settle(const WideTree& tree, const WideRays& rays, const Wide
   const std::uint64_t candidates = candidates_of(answers);
   if (candidates == 0 || !tree.has_exact_corners) return {0, candidates};
   StoredCorners corners;
-  for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1)
-    corners.put(tree, answers, static_cast<std::uint32_t>(__builtin_ctzll(rest)));
-  const std::uint64_t certain = settle_rows(rays, corners.rows, candidates, t);
+  std::uint64_t known = 0;
+  for (std::uint64_t rest = candidates; rest != 0; rest &= rest - 1) {
+    const auto ray = static_cast<std::uint32_t>(__builtin_ctzll(rest));
+    known |= std::uint64_t{corners.put(tree, answers, ray)} << ray;
+  }
+  const std::uint64_t certain = settle_rows(rays, corners.rows, known, t);
   return {certain, candidates & ~certain};
 }
 

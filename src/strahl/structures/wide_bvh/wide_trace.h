@@ -16,6 +16,7 @@
 #include <strahl/geometry/triangle.h>
 #include <strahl/query/counters.h>
 #include <strahl/query/policies.h>
+#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 
 namespace strahl {
@@ -30,6 +31,7 @@ concept MakesHits = requires(Prims& prims, std::uint32_t reference, const Q& que
 /// Corners of a lane as stored, promoted.
 inline TriangleVertices stored_corners(const std::byte* leaf, std::uint32_t lanes,
                                        std::uint32_t lane) {
+  if (is_compact(leaf)) return compact_corners(leaf, lanes, lane);
   double v[9];
   for (std::uint32_t row = 0; row < 9; ++row)
     v[row] = static_cast<double>(corner_row(leaf, lanes, row)[lane]);
@@ -142,7 +144,7 @@ class WideTrace {
     const std::uint32_t lanes = lanes_of(candidate), lane = answers.lane[0];
     const std::uint32_t reference = reference_row(leaf, lanes)[lane];
     if constexpr (kMakesHits && std::is_same_v<Q, ClosestHit>) {
-      if (tree_.has_exact_corners) {
+      if (tree_.is_exact(leaf)) {
         const TriangleVertices triangle = stored_corners(leaf, lanes, lane);
         const std::optional<double> t =
             crossing_t(ray_.org, ray_.dir, triangle, triangle.a - ray_.org);

@@ -155,13 +155,15 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
     const std::byte* at = base + std::size_t{unit_of(id)} * kWideUnit;
     const std::uint32_t lanes = lanes_of(id);
     if (kCounts) ++job.counts.leaves, job.counts.lanes += lanes;
+    ExpandedBlock<W> room;
+    const BlockView block = view<W>(at, lanes, room);
     const LeafTest<W> leaf_test(job.rays, ray);
     Taker<W, M> taker(job, ray);
     for (int part = 0; part < L::kParts; ++part) {
       if (part > 0 && lanes <= static_cast<std::uint32_t>(part * L::kLanes)) break;
       typename LeafTest<W>::Values values;
       const float upper = bound;
-      leaf_test.test(at, lanes, part, hn::Set(typename L::D(), upper), values);
+      leaf_test.test(block, part, hn::Set(typename L::D(), upper), values);
       if (values.possible == 0) continue;
       if (taker.take(id, part, leaf_test, values)) return;
       if (M == WideMode::any) continue;

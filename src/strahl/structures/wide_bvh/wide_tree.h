@@ -6,6 +6,7 @@
 //   is a LeafBound, nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n
 //   references, 16 + 40 n bytes. Rows are read with full vectors from their unaligned beginning;
 //   lanes beyond n are masked out, and the arena ends in slack for them.
+//   Blocks of the compact layout, about half as large, are those of wide_compact.h.
 // Slots: a ray with sign bits s (bit a set where it runs down axis a) visits the children of a node
 //   in ascending order of slot XOR s (of slot XOR 2 s for W = 16), so slots are filled by position.
 // Numbers are those of the tree's frame (wide_frame.h). Where all things are triangles whose
@@ -20,6 +21,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -49,10 +51,14 @@ struct LeafBound {
       0;               ///< of edge values, per unit of the largest |a - org| component; negative
   float constant = 0;  ///< of edge values, whatever the distance; negative
   float to_t = 0;      ///< from edge values to t
-  float unused = 0;
+  std::uint32_t word = 0;  ///< not 0 in a block of the compact layout, see wide_compact.h
 };
 
+/// How blocks hold corners: as rows of floats, or each once or rounded to 16 bits.
+enum class WideLayout { full, compact };
+
 constexpr std::size_t node_bytes(int width) { return 28u * static_cast<std::size_t>(width); }
+/// Of a full block.
 constexpr std::size_t leaf_bytes(std::size_t lanes) { return sizeof(LeafBound) + 40 * lanes; }
 constexpr std::uint64_t units(std::size_t bytes) { return (bytes + kWideUnit - 1) / kWideUnit; }
 
@@ -63,12 +69,26 @@ inline const float* plane_row(const std::byte* node, int width, int row) {
 inline const WideId* child_row(const std::byte* node, int width) {
   return reinterpret_cast<const WideId*>(node) + 6 * width;
 }
-/// Row r of a block: a.x, a.y, a.z, b.x, ...
+inline std::uint32_t leaf_word(const std::byte* leaf) {
+  std::uint32_t word;
+  std::memcpy(&word, leaf + offsetof(LeafBound, word), sizeof word);
+  return word;
+}
+inline bool is_compact(const std::byte* leaf) { return leaf_word(leaf) != 0; }
+/// Whether the block is compact and its corners are rounded to 16 bits.
+inline bool is_rounded(const std::byte* leaf) { return (leaf_word(leaf) & 0xffu) != 0; }
+/// Row r of a full block: a.x, a.y, a.z, b.x, ...
 inline const float* corner_row(const std::byte* leaf, std::uint32_t lanes, std::uint32_t row) {
   return reinterpret_cast<const float*>(leaf + sizeof(LeafBound)) + row * lanes;
 }
+inline const std::uint32_t* reference_row(const std::byte* leaf, std::uint32_t lanes,
+                                          WideLayout layout) {
+  const auto* behind_head = reinterpret_cast<const std::uint32_t*>(leaf + sizeof(LeafBound));
+  return layout == WideLayout::full ? behind_head + 9 * lanes : behind_head;
+}
+/// Of a block that is written.
 inline const std::uint32_t* reference_row(const std::byte* leaf, std::uint32_t lanes) {
-  return reinterpret_cast<const std::uint32_t*>(leaf + sizeof(LeafBound)) + 9 * lanes;
+  return reference_row(leaf, lanes, is_compact(leaf) ? WideLayout::compact : WideLayout::full);
 }
 
 /// Zeroed memory whose beginning is aligned to cache lines; large ones lie in large pages where the
@@ -102,13 +122,16 @@ struct WideTree {
   WideId root = 0;
   int width = 8;
   std::size_t depth = 0;  ///< most inner nodes on a path
-  bool has_exact_corners = false;
+  WideLayout layout = WideLayout::full;
+  bool has_exact_corners = false;  ///< but in rounded blocks
   WideFrame frame;
 
   bool is_empty() const { return arena.size() == 0; }
   const std::byte* at(WideId id) const {
     return arena.data() + std::size_t{unit_of(id)} * kWideUnit;
   }
+  /// Whether a block holds the very corners of the scene.
+  bool is_exact(const std::byte* leaf) const { return has_exact_corners && !is_rounded(leaf); }
 };
 
 }  // namespace strahl

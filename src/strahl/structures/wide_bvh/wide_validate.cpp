@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <strahl/structures/wide_bvh/wide_bvh.h>
+#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 
 namespace strahl {
@@ -54,7 +55,9 @@ class WideBvhChecker {
  private:
   void check(WideId id, const StoredBox& box, std::uint64_t depth) {
     ++nodes_;
-    const std::size_t bytes = is_leaf(id) ? leaf_bytes(lanes_of(id)) : node_bytes(tree_.width);
+    demand(std::size_t{unit_of(id)} * kWideUnit + kWideSlack < tree_.arena.size(),
+           "an id is out of range");
+    const std::size_t bytes = is_leaf(id) ? bytes_of_block(id) : node_bytes(tree_.width);
     demand(std::size_t{unit_of(id)} * kWideUnit + bytes + kWideSlack <= tree_.arena.size(),
            "an id is out of range");
     demand(depth <= static_cast<std::uint64_t>(kWideMaxDepth), "a node is too deep");
@@ -62,6 +65,11 @@ class WideBvhChecker {
       check_block(id, box, depth);
     else
       check_node(tree_.at(id), box, depth);
+  }
+
+  std::size_t bytes_of_block(WideId id) const {
+    const std::byte* block = tree_.at(id);
+    return is_compact(block) ? compact_bytes(block, lanes_of(id)) : leaf_bytes(lanes_of(id));
   }
 
   void check_node(const std::byte* node, const StoredBox& box, std::uint64_t depth) {
@@ -104,8 +112,8 @@ class WideBvhChecker {
     const std::uint32_t lanes = lanes_of(id);
     const std::byte* block = tree_.at(id);
     references_ += lanes;
-    LeafBound bound;
-    std::memcpy(&bound, block, sizeof bound);
+    demand(is_compact(block) == (tree_.layout == WideLayout::compact),
+           "a block is not of the tree's layout");
     for (std::uint32_t lane = 0; lane < lanes; ++lane) {
       const std::uint32_t reference = reference_row(block, lanes)[lane];
       demand(reference < source_.size(), "a reference is out of range");
@@ -116,6 +124,10 @@ class WideBvhChecker {
         covered_[reference].hi[a] = std::max(covered_[reference].hi[a], box.hi[a]);
       }
     }
+    if (is_rounded(block)) return check_rounded(block, lanes);
+    if (is_compact(block)) check_indices(block, lanes);
+    LeafBound bound;
+    std::memcpy(&bound, block, sizeof bound);
     for (std::uint32_t lane = 0; lane < lanes; ++lane) check_lane(block, lanes, lane, bound);
   }
 
@@ -133,6 +145,46 @@ class WideBvhChecker {
       demand(static_cast<double>(box.lo[a]) <= lo && hi <= static_cast<double>(box.hi[a]),
              "boxes do not enclose a primitive");
     }
+  }
+
+  void check_indices(const std::byte* block, std::uint32_t lanes) const {
+    demand(distinct_of(block) <= kMostDistinct, "a block has too many corners");
+    for (std::uint32_t i = 0; i < 3 * lanes; ++i)
+      demand(index_row(block, lanes, 0)[i] < distinct_of(block),
+             "a corner's index is out of range");
+  }
+
+  void check_rounded(const std::byte* block, std::uint32_t lanes) const {
+    bool are_triangles = true;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      TriangleVertices ignored;
+      are_triangles = are_triangles && source_.triangle(reference_row(block, lanes)[lane], ignored);
+    }
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+      if (are_triangles)
+        check_rounded_lane(block, lanes, lane);
+      else
+        demand(std::isnan(compact_corners(block, lanes, lane).a.x),
+               "a block of what is no triangle has corners");
+    }
+  }
+
+  void check_rounded_lane(const std::byte* block, std::uint32_t lanes, std::uint32_t lane) const {
+    const TriangleVertices stored = compact_corners(block, lanes, lane);
+    TriangleVertices triangle;
+    source_.triangle(reference_row(block, lanes)[lane], triangle);
+    const double error = kCompactError * static_cast<double>(rounded_head(block).step());
+    const Vec3d* const corners[] = {&stored.a, &stored.b, &stored.c};
+    const Vec3d* const own[] = {&triangle.a, &triangle.b, &triangle.c};
+    for (int i = 0; i < 3; ++i) {
+      demand(Vec3d(Vec3f(*corners[i])) == *corners[i], "a block's corner is no float");
+      demand(length(*corners[i] - tree_.frame.to_frame(*own[i])) <= error,
+             "a block's corners are not the primitive's");
+    }
+    const double longest =
+        std::max(length(stored.b - stored.a), length(stored.c - stored.a)) + 2 * error;
+    demand(static_cast<double>(rounded_head(block).longest()) >= longest,
+           "a block's error bound is too small");
   }
 
   void check_lane(const std::byte* block, std::uint32_t lanes, std::uint32_t lane,
@@ -155,7 +207,7 @@ class WideBvhChecker {
     const LeafBound own = leaf_bound({&corners, 1});
     demand(bound.per_distance <= own.per_distance && bound.constant <= own.constant,
            "a block's error bound is too small");
-    demand(bound.to_t >= own.to_t || !tree_.has_exact_corners, "a block's bound of t is too small");
+    demand(bound.to_t >= own.to_t, "a block's bound of t is too small");
   }
 
   const WideTree& tree_;

@@ -18,6 +18,34 @@ void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane, const
     rows[row * lanes + lane] = abc[row / 3][static_cast<int>(row % 3)];
 }
 
+void write_full_block(std::byte* block, const BlockCorners& corners) {
+  for (std::uint32_t i = 0; i < corners.lanes; ++i) {
+    const LaneCorners& at = corners.stored[i];
+    write_lane(block, corners.lanes, i, {at.a, at.b, at.c});
+  }
+  const LeafBound bound = leaf_bound(std::span(corners.stored).first(corners.lanes));
+  std::memcpy(block, &bound, sizeof bound);
+}
+
+BlockCorners corners_of(std::span<const std::uint32_t> references, const WideFrame& frame,
+                        const PrimitiveSource& source) {
+  const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+  BlockCorners corners;
+  for (const std::uint32_t reference : references) {
+    const std::uint32_t i = corners.lanes++;
+    TriangleVertices triangle;
+    if (!source.triangle(reference, triangle)) {
+      corners.stored[i] = {nan, nan, nan};
+      corners.all_triangles = false;
+      continue;
+    }
+    corners.stored[i] = lane_corners(triangle, frame);
+    corners.in_frame[i] = {frame.to_frame(triangle.a), frame.to_frame(triangle.b),
+                           frame.to_frame(triangle.c)};
+  }
+  return corners;
+}
+
 }  // namespace
 
 void clear_boxes(std::byte* node, int width) {
@@ -36,21 +64,19 @@ void write_box(std::byte* node, int width, int slot, const Aabb& box, const Wide
   }
 }
 
-void write_block(std::byte* block, std::span<const std::uint32_t> references,
-                 const WideFrame& frame, const PrimitiveSource& source) {
-  const auto lanes = static_cast<std::uint32_t>(references.size());
-  const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
-  std::array<LaneCorners, kWideMaxLanes> corners;
-  for (std::uint32_t i = 0; i < lanes; ++i) {
-    TriangleVertices triangle;
-    const bool is_triangle = source.triangle(references[i], triangle);
-    if (is_triangle) corners[i] = lane_corners(triangle, frame);
-    const LaneCorners& at = corners[i];
-    write_lane(block, lanes, i,
-               {is_triangle ? at.a : nan, is_triangle ? at.b : nan, is_triangle ? at.c : nan});
-  }
-  const LeafBound bound = leaf_bound(std::span(corners).first(lanes));
-  std::memcpy(block, &bound, sizeof bound);
+BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree& tree,
+                       const PrimitiveSource& source) {
+  const std::size_t full = leaf_bytes(references.size());
+  if (tree.layout == WideLayout::full) return {full, full};
+  return compact_sizes(corners_of(references, tree.frame, source));
+}
+
+bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
+                 const PrimitiveSource& source, std::size_t bytes) {
+  const BlockCorners corners = corners_of(references, tree.frame, source);
+  if (tree.layout == WideLayout::compact) return write_compact_block(block, corners, bytes);
+  write_full_block(block, corners);
+  return true;
 }
 
 }  // namespace strahl

@@ -6,6 +6,7 @@
 #include <span>
 
 #include <strahl/geometry/primitive_source.h>
+#include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_tree.h>
 
 namespace strahl {
@@ -16,8 +17,13 @@ void clear_boxes(std::byte* node, int width);
 /// Writes a child's box, rounded outward into the frame.
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame);
 
-/// Writes error bounds and corners of a block of these lanes.
-void write_block(std::byte* block, std::span<const std::uint32_t> references,
-                 const WideFrame& frame, const PrimitiveSource& source);
+/// Bytes of a block of these lanes in the tree's frame and layout; a full one has one size.
+BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree& tree,
+                       const PrimitiveSource& source);
+
+/// Writes error bounds and corners of a block of these lanes, in the tree's frame and layout.
+/// @return whether it fits into that many bytes; a full block does
+bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
+                 const PrimitiveSource& source, std::size_t bytes);
 
 }  // namespace strahl
