@@ -124,8 +124,8 @@ class WideFloatTrace {
     const Ray ray = given_ray(i);
     Q query(ray, HitFilter{});
     if constexpr (!kIsAny) query.best = answers_[i];
-    tree_.has_exact_corners ? offer_stored(ray, leaf, lanes, query)
-                            : offer_scene(i, leaf, lanes, query);
+    tree_.is_exact(tree_.at(leaf)) ? offer_stored(ray, leaf, lanes, query)
+                                   : offer_scene(i, leaf, lanes, query);
     if constexpr (kIsAny) {
       answers_[i] = std::uint8_t{query.found};
       return query.found;
