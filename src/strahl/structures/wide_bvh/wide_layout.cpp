@@ -11,7 +11,7 @@ namespace {
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
 /// The octant of a slot: bit a set on the high side of axis a.
-unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot / (width / 8)); }
+unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot) >> (width == 16); }
 
 double fit(const Vec3d& offset, unsigned octant) {
   return ((octant & 1u) != 0 ? offset.x : -offset.x) + ((octant & 2u) != 0 ? offset.y : -offset.y) +
@@ -163,7 +163,11 @@ class SlotChoice {
         width_(width),
         count_(centers.size()),
         free_((std::uint32_t{1} << width) - 1) {
-    for (std::size_t i = 0; i < count_; ++i) offsets_[i] = centers[i] - middle;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec3d offset = centers[i] - middle;
+      least_gain_[i] = kLeastGain * norm1(offset);
+      for (unsigned octant = 0; octant < 8; ++octant) fits_[i][octant] = fit(offset, octant);
+    }
   }
 
   void fill() {
@@ -202,20 +206,18 @@ class SlotChoice {
   static constexpr double kLeastGain = 1e-6;  ///< relative: roundings are no gain
 
   bool is_free(int slot) const { return (free_ >> slot & 1u) != 0; }
-  double fit_of(std::size_t child, int slot) const {
-    return fit(offsets_[child], octant_of(slot, width_));
-  }
+  double fit_of(std::size_t child, int slot) const { return fits_[child][octant_of(slot, width_)]; }
 
   bool exchange(std::size_t a, std::size_t b) {
     const double now = fit_of(a, slots_[a]) + fit_of(b, slots_[b]);
     const double then = fit_of(a, slots_[b]) + fit_of(b, slots_[a]);
-    if (!(then > now + kLeastGain * (norm1(offsets_[a]) + norm1(offsets_[b])))) return false;
+    if (!(then > now + least_gain_[a] + least_gain_[b])) return false;
     std::swap(slots_[a], slots_[b]);
     return true;
   }
   bool move(std::size_t a, int slot) {
     const double now = fit_of(a, slots_[a]);
-    if (!(fit_of(a, slot) > now + kLeastGain * norm1(offsets_[a]))) return false;
+    if (!(fit_of(a, slot) > now + least_gain_[a])) return false;
     free_ ^= 1u << slot | 1u << slots_[a];
     slots_[a] = slot;
     return true;
@@ -225,7 +227,8 @@ class SlotChoice {
   int width_;
   std::size_t count_;
   std::uint32_t free_;
-  std::array<Vec3d, kMaxWidth> offsets_;
+  std::array<std::array<double, 8>, kMaxWidth> fits_;  ///< of each child into each octant
+  std::array<double, kMaxWidth> least_gain_;
 };
 
 }  // namespace
