@@ -206,6 +206,26 @@ TEST(WideOrder, FillsTheSlotsOfTheCorners) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(wide[i] / 2, i);
 }
 
+TEST(WideOrder, NoExchangeOfTwoSlotsFitsBetter) {
+  const auto fit = [](const Vec3d& c, int slot) {
+    return (slot & 1 ? c.x : -c.x) + (slot & 2 ? c.y : -c.y) + (slot & 4 ? c.z : -c.z);
+  };
+  Rng rng(7);
+  const auto draw = [&] { return rng.next_u32() * 0x1p-31 - 1; };
+  for (int node = 0; node < 200; ++node) {
+    std::vector<Vec3d> c(8);
+    for (Vec3d& center : c) center = {draw(), draw(), draw()};
+    int slots[8];
+    assign_slots(c, {0, 0, 0}, 8, slots);
+    for (std::size_t a = 0; a < 8; ++a)
+      for (std::size_t b = 0; b < a; ++b) {
+        ASSERT_NE(slots[a], slots[b]);
+        ASSERT_GT(fit(c[a], slots[a]) + fit(c[b], slots[b]) + 1e-4,
+                  fit(c[a], slots[b]) + fit(c[b], slots[a]));
+      }
+  }
+}
+
 TEST(WideFrame, KeepsSuitedScenesAndMovesOthers) {
   EXPECT_TRUE(make_wide_frame({{-1, -1, -1}, {1, 2, 1}}).is_identity());
   for (const Aabb& box :

@@ -16,7 +16,7 @@ constexpr std::size_t kMostSpare = 5;
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
 /// The octant of a slot: bit a set on the high side of axis a.
-unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot / (width / 8)); }
+unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot) >> (width == 16); }
 
 double fit(const Vec3d& offset, unsigned octant) {
   return ((octant & 1u) != 0 ? offset.x : -offset.x) + ((octant & 2u) != 0 ? offset.y : -offset.y) +
@@ -177,27 +177,89 @@ class Layout {
   std::uint32_t next_unit_ = 0;
 };
 
+/// Slots of a node's children: the best fitting pair of child and slot first, then exchanges.
+class SlotChoice {
+ public:
+  SlotChoice(std::span<const Vec3d> centers, const Vec3d& middle, int width, std::span<int> slots)
+      : slots_(slots),
+        width_(width),
+        count_(centers.size()),
+        free_((std::uint32_t{1} << width) - 1) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Vec3d offset = centers[i] - middle;
+      least_gain_[i] = kLeastGain * norm1(offset);
+      for (unsigned octant = 0; octant < 8; ++octant) fits_[i][octant] = fit(offset, octant);
+    }
+  }
+
+  void fill() {
+    for (std::uint32_t left = (1u << count_) - 1; left != 0;) {
+      double best = -Aabb::kInf;
+      std::size_t best_child = 0;
+      int best_slot = -1;
+      for (std::size_t child = 0; child < count_; ++child) {
+        if ((left >> child & 1u) == 0) continue;
+        for (int slot = 0; slot < width_; ++slot) {
+          if (!is_free(slot)) continue;
+          const double gain = fit_of(child, slot);
+          if (best_slot >= 0 && !(gain > best)) continue;
+          best = gain, best_child = child, best_slot = slot;
+        }
+      }
+      slots_[best_child] = best_slot;
+      left &= ~(1u << best_child), free_ &= ~(1u << best_slot);
+    }
+  }
+
+  /// Exchanges and moves as long as they fit better; those that fill() took last had little choice.
+  void improve() {
+    bool is_better = true;
+    for (int round = 0; round < kMostRounds && is_better; ++round) {
+      is_better = false;
+      for (std::size_t a = 0; a < count_; ++a) {
+        for (std::size_t b = a + 1; b < count_; ++b) is_better |= exchange(a, b);
+        for (int slot = 0; slot < width_; ++slot) is_better |= is_free(slot) && move(a, slot);
+      }
+    }
+  }
+
+ private:
+  static constexpr int kMostRounds = 8;
+  static constexpr double kLeastGain = 1e-6;  ///< relative: roundings are no gain
+
+  bool is_free(int slot) const { return (free_ >> slot & 1u) != 0; }
+  double fit_of(std::size_t child, int slot) const { return fits_[child][octant_of(slot, width_)]; }
+
+  bool exchange(std::size_t a, std::size_t b) {
+    const double now = fit_of(a, slots_[a]) + fit_of(b, slots_[b]);
+    const double then = fit_of(a, slots_[b]) + fit_of(b, slots_[a]);
+    if (!(then > now + least_gain_[a] + least_gain_[b])) return false;
+    std::swap(slots_[a], slots_[b]);
+    return true;
+  }
+  bool move(std::size_t a, int slot) {
+    const double now = fit_of(a, slots_[a]);
+    if (!(fit_of(a, slot) > now + least_gain_[a])) return false;
+    free_ ^= 1u << slot | 1u << slots_[a];
+    slots_[a] = slot;
+    return true;
+  }
+
+  std::span<int> slots_;
+  int width_;
+  std::size_t count_;
+  std::uint32_t free_;
+  std::array<std::array<double, 8>, kMaxWidth> fits_;  ///< of each child into each octant
+  std::array<double, kMaxWidth> least_gain_;
+};
+
 }  // namespace
 
 void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
                   std::span<int> slots) {
-  std::uint32_t free_slots = (1u << width) - 1, left = (1u << centers.size()) - 1;
-  while (left != 0) {
-    double best = -Aabb::kInf;
-    std::size_t best_child = 0;
-    int best_slot = -1;
-    for (std::size_t child = 0; child < centers.size(); ++child) {
-      if ((left >> child & 1u) == 0) continue;
-      for (int slot = 0; slot < width; ++slot) {
-        if ((free_slots >> slot & 1u) == 0) continue;
-        const double gain = fit(centers[child] - middle, octant_of(slot, width));
-        if (best_slot >= 0 && !(gain > best)) continue;
-        best = gain, best_child = child, best_slot = slot;
-      }
-    }
-    slots[best_child] = best_slot;
-    left &= ~(1u << best_child), free_slots &= ~(1u << best_slot);
-  }
+  SlotChoice choice(centers, middle, width, slots);
+  choice.fill();
+  choice.improve();
 }
 
 WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, WideTree empty,

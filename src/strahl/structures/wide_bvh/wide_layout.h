@@ -8,8 +8,9 @@
 
 namespace strahl {
 
-/// The slot of each child of a node: greedily the pair of child and free slot that fit best, a slot
-/// fitting a child as far as the child lies on the slot's side of the node's middle.
+/// The slot of each child of a node: greedily the pair of child and free slot that fit best, then
+/// two exchanged, or one moved, as long as that fits better. A slot fits a child as far as the
+/// child lies on the slot's side of the node's middle.
 /// @param centers of the children
 void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
                   std::span<int> slots);

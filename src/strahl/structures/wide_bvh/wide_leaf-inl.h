@@ -144,9 +144,13 @@ class LeafTest {
   HWY_INLINE void measure(const std::byte* leaf, const V3& a, const V3& b, const V3& c, V upper,
                           Values& r) const {
     const V3 s = minus(org_, a), e1 = minus(b, a), e2 = minus(c, a);
-    const V3 h = cross(dir_, e2), q = cross(s, e1);
+    // One product after the other: all of it then fits into 16 registers.
+    const V3 q = cross(s, e1);
+    const V v = dot(dir_, q), t = dot(e2, q);
+    const V3 h = cross(dir_, e2);
+    const V det = dot(e1, h), u = dot(s, h);
     bound(leaf, s, r);
-    judge(dot(e1, h), dot(s, h), dot(dir_, q), dot(e2, q), upper, r);
+    judge(det, u, v, t, upper, r);
   }
 
   /// The errors of the values of triangles whose corner a is at -s from the origin.
@@ -167,11 +171,13 @@ class LeafTest {
     r.v = hn::Xor(v, r.det_sign);
     r.t = hn::Xor(t, r.det_sign);
     r.w = hn::Sub(hn::Sub(r.det, r.u), r.v);
-    const auto outside =
-        hn::Or(hn::Or(hn::Lt(r.u, r.error), hn::Lt(r.v, r.error)), hn::Lt(r.w, r.error));
-    const auto before = hn::Lt(hn::Sub(r.t, r.t_error), hn::Mul(enter_, r.det));
-    const auto missed = hn::Or(hn::Or(outside, before), is_behind(r, upper));
-    r.possible = ~bits_of(D(), missed);
+    // Of a NaN and a number, Min gives one or the other: no lane is refused that would not be by
+    // the number alone.
+    const auto outside = hn::Lt(hn::Min(hn::Min(r.u, r.v), r.w), r.error);
+    const V after_enter = hn::NegMulAdd(enter_, r.det, r.t);
+    const V before_upper = hn::MulSub(upper, r.det, r.t);
+    const auto beyond = hn::Lt(hn::Min(after_enter, before_upper), r.t_error);
+    r.possible = ~bits_of(D(), hn::Or(outside, beyond));
   }
 
   /// Scalar product of the direction and a column of the pencil.
