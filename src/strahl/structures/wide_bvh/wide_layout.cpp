@@ -1,45 +1,46 @@
 #include <algorithm>
 #include <array>
+#include <vector>
 
+#include <strahl/build/sort_few.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
 
 namespace strahl {
 namespace {
 
+constexpr std::size_t kForkReferences = 8192;    // smaller subtrees stay on one thread
+constexpr std::size_t kReportReferences = 2048;  // and do not report
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
-
-/// The octant of a slot: bit a set on the high side of axis a.
-unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot / (width / 8)); }
-
-double fit(const Vec3d& offset, unsigned octant) {
-  return ((octant & 1u) != 0 ? offset.x : -offset.x) + ((octant & 2u) != 0 ? offset.y : -offset.y) +
-         ((octant & 4u) != 0 ? offset.z : -offset.z);
-}
 
 class Layout {
  public:
-  Layout(const Tree& tree, const Collapse& collapse, WideTree& out, const PrimitiveSource& source,
-         const BuildContext& context, BuildReport& report)
+  Layout(const Tree& tree, const Collapse& collapse, const WideFrame& box_frame, WideTree& out,
+         const PrimitiveSource& source, const BuildContext& context, BuildReport& report)
       : tree_(tree),
         collapse_(collapse),
+        box_frame_(box_frame),
         out_(out),
         source_(source),
         context_(context),
-        report_(report) {}
+        report_(report),
+        units_(tree.nodes.size()) {}
 
   void run() {
-    if (collapse_.is_block(0))
-      total_units_ = units(leaf_bytes(lanes_of_block(0)));
-    else
-      measure(0);
-    if (total_units_ > kWideMaxUnits)
+    const bool is_block = collapse_.is_block(0);
+    const Extent all = is_block ? measure_block(0) : measure(0);
+    if (all.units > kWideMaxUnits)
       throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
+    total_units_ = all.units;
     const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
     context_.require_memory(bytes, "wide_bvh");
     out_.arena = WideArena(bytes);
-    out_.root = collapse_.is_block(0) ? write_block(0, 0) : write_node(0, 0);
-    report_.bytes = bytes;
+    if (is_block)
+      out_.root = write_block(0, 0);
+    else
+      write_node(0, out_.root = 0, true);
+    report_.nodes = all.nodes, report_.leaves = all.leaves, report_.references = all.references;
+    report_.depth = all.depth, report_.bytes = bytes;
   }
 
  private:
@@ -49,6 +50,15 @@ class Layout {
     int count;
     auto begin() const { return node.begin(); }
     auto end() const { return node.begin() + count; }
+    std::size_t size() const { return static_cast<std::size_t>(count); }
+  };
+  /// What a subtree takes, and what is in it. Its first unit is that of a cache line.
+  struct Extent {
+    std::uint64_t units = 0, nodes = 0, leaves = 0, references = 0, depth = 0;
+    void add(const Extent& child) {
+      units += child.units, nodes += child.nodes, leaves += child.leaves;
+      references += child.references, depth = std::max(depth, child.depth + 1);
+    }
   };
 
   Children children_of(std::uint32_t node) const {
@@ -63,71 +73,92 @@ class Layout {
     return (unit + 1) / 2 * 2;
   }
 
-  void measure(std::uint32_t node) {
-    total_units_ = aligned(total_units_) + units(node_bytes(out_.width));
-    for (const bool blocks : {true, false})
-      for (const std::uint32_t child : children_of(node)) {
-        if (collapse_.is_block(child) != blocks) continue;
-        if (blocks)
-          total_units_ += units(leaf_bytes(lanes_of_block(child)));
-        else
-          measure(child);
-      }
+  /// Calls visit(i) for the children of a node, at once where the node is large.
+  template <class Visit>
+  void each_child(std::uint32_t node, std::size_t count, Visit visit) const {
+    if (collapse_.references(node).size() < kForkReferences) {
+      for (std::size_t i = 0; i < count; ++i) visit(i);
+      return;
+    }
+    context_.executor.parallel_for(0, count, 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) visit(i);
+    });
   }
 
-  std::byte* take(std::size_t bytes, std::uint32_t& unit) {
-    unit = next_unit_;
-    next_unit_ += static_cast<std::uint32_t>(units(bytes));
-    return out_.arena.data() + std::size_t{unit} * kWideUnit;
+  Extent measure(std::uint32_t node) {
+    const Children children = children_of(node);
+    std::array<Extent, kMaxWidth> extents;
+    each_child(node, children.size(), [&](std::size_t i) {
+      const std::uint32_t child = children.node[i];
+      extents[i] = collapse_.is_block(child) ? measure_block(child) : measure(child);
+    });
+    Extent all{units(node_bytes(out_.width)), 1, 0, 0, 0};
+    for (const bool blocks : {true, false})
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        if (collapse_.is_block(children.node[i]) != blocks) continue;
+        if (!blocks) all.units = aligned(all.units);
+        all.add(extents[i]);
+      }
+    units_[node] = static_cast<std::uint32_t>(all.units);
+    return all;
   }
+
+  Extent measure_block(std::uint32_t node) const {
+    Lanes room;
+    const std::size_t lanes = block_references(node, room).size();
+    return {units(leaf_bytes(lanes)), 1, 1, lanes, 0};
+  }
+
+  std::byte* at(std::uint32_t unit) { return out_.arena.data() + std::size_t{unit} * kWideUnit; }
 
   /// References of a block, ascending, each once: parts of one primitive may meet again.
   std::span<const std::uint32_t> block_references(std::uint32_t node, Lanes& room) const {
     const std::span<const std::uint32_t> all = collapse_.references(node);
     std::copy(all.begin(), all.end(), room.begin());
     const auto end = room.begin() + static_cast<std::ptrdiff_t>(all.size());
-    std::sort(room.begin(), end);
+    sort_few(std::span(room).first(all.size()));
     return {room.begin(), std::unique(room.begin(), end)};
   }
-  std::size_t lanes_of_block(std::uint32_t node) const {
-    Lanes room;
-    return block_references(node, room).size();
-  }
 
-  WideId write_block(std::uint32_t node, std::uint64_t depth) {
+  WideId write_block(std::uint32_t node, std::uint32_t unit) {
     Lanes room;
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
-    std::uint32_t unit;
-    std::byte* block = take(leaf_bytes(lanes), unit);
+    std::byte* block = at(unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes)));
     strahl::write_block(block, references, out_.frame, source_);
-    ++report_.nodes, ++report_.leaves, report_.references += lanes;
-    report_.depth = std::max(report_.depth, depth);
     return kWideLeaf | unit << 4 | (lanes - 1);
   }
 
-  WideId write_node(std::uint32_t node, std::uint64_t depth) {
-    if (report_.nodes % 4096 == 0)
-      context_.check(static_cast<double>(next_unit_) / static_cast<double>(total_units_),
-                     "laying out");
-    ++report_.nodes;
+  void write_node(std::uint32_t node, std::uint32_t unit, bool is_root) {
+    if (is_root || collapse_.references(node).size() >= kReportReferences)
+      context_.check(static_cast<double>(unit) / static_cast<double>(total_units_), "laying out");
     const Children children = children_of(node);
-    std::uint32_t unit;
-    next_unit_ = aligned(next_unit_);
-    std::byte* at = take(node_bytes(out_.width), unit);
+    std::byte* const to = at(unit);
     std::array<int, kMaxWidth> slots;
     place(node, children, slots);
-    write_boxes(at, children, slots);
-    auto* ids = const_cast<WideId*>(child_row(at, out_.width));
-    for (const bool blocks : {true, false})
-      for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i) {
-        const std::uint32_t child = children.node[i];
-        if (collapse_.is_block(child) != blocks) continue;
-        ids[slots[i]] = blocks ? write_block(child, depth + 1) : write_node(child, depth + 1);
+    write_boxes(to, children, slots);
+    auto* ids = const_cast<WideId*>(child_row(to, out_.width));
+    std::array<std::uint32_t, kMaxWidth> inner;  // children that are nodes
+    std::size_t inner_count = 0;
+    std::uint32_t next = unit + static_cast<std::uint32_t>(units(node_bytes(out_.width)));
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (!collapse_.is_block(children.node[i])) {
+        inner[inner_count++] = static_cast<std::uint32_t>(i);
+        continue;
       }
-    return unit;
+      ids[slots[i]] = write_block(children.node[i], next);
+      next += static_cast<std::uint32_t>(units(leaf_bytes(lanes_of(ids[slots[i]]))));
+    }
+    for (std::size_t i = 0; i < inner_count; ++i) {
+      next = aligned(next);
+      ids[slots[inner[i]]] = next;
+      next += units_[children.node[inner[i]]];
+    }
+    each_child(node, inner_count, [&](std::size_t i) {
+      write_node(children.node[inner[i]], ids[slots[inner[i]]], false);
+    });
   }
 
   void place(std::uint32_t node, const Children& children, std::span<int> slots) const {
@@ -141,48 +172,29 @@ class Layout {
   void write_boxes(std::byte* at, const Children& children, std::span<const int> slots) const {
     clear_boxes(at, out_.width);
     for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i)
-      write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, out_.frame);
+      write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, box_frame_);
   }
 
   const Tree& tree_;
   const Collapse& collapse_;
+  const WideFrame& box_frame_;
   WideTree& out_;
   const PrimitiveSource& source_;
   const BuildContext& context_;
   BuildReport& report_;
   std::uint64_t total_units_ = 0;
-  std::uint32_t next_unit_ = 0;
+  std::vector<std::uint32_t> units_;  ///< per node of the tree that becomes a wide one: its subtree
 };
 
 }  // namespace
 
-void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
-                  std::span<int> slots) {
-  std::uint32_t free_slots = (1u << width) - 1, left = (1u << centers.size()) - 1;
-  while (left != 0) {
-    double best = -Aabb::kInf;
-    std::size_t best_child = 0;
-    int best_slot = -1;
-    for (std::size_t child = 0; child < centers.size(); ++child) {
-      if ((left >> child & 1u) == 0) continue;
-      for (int slot = 0; slot < width; ++slot) {
-        if ((free_slots >> slot & 1u) == 0) continue;
-        const double gain = fit(centers[child] - middle, octant_of(slot, width));
-        if (best_slot >= 0 && !(gain > best)) continue;
-        best = gain, best_child = child, best_slot = slot;
-      }
-    }
-    slots[best_child] = best_slot;
-    left &= ~(1u << best_child), free_slots &= ~(1u << best_slot);
-  }
-}
-
 WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
-                      bool has_exact_corners, const PrimitiveSource& source,
-                      const BuildContext& context, BuildReport& report) {
+                      const WideFrame& box_frame, bool has_exact_corners,
+                      const PrimitiveSource& source, const BuildContext& context,
+                      BuildReport& report) {
   WideTree out;
   out.width = width, out.frame = frame, out.has_exact_corners = has_exact_corners;
-  Layout(tree, collapse, out, source, context, report).run();
+  Layout(tree, collapse, box_frame, out, source, context, report).run();
   out.depth = report.depth;
   return out;
 }

@@ -18,8 +18,10 @@ void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width
 /// leaves, references, depth and bytes to the report.
 /// Throws Error{resource} above the memory limit or 4 GiB, Error{cancelled}.
 /// @param source whose things the references are
+/// @param box_frame of the tree's boxes into `frame`: that itself, or none where they are in it
 WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, int width, const WideFrame& frame,
-                      bool has_exact_corners, const PrimitiveSource& source,
-                      const BuildContext& context, BuildReport& report);
+                      const WideFrame& box_frame, bool has_exact_corners,
+                      const PrimitiveSource& source, const BuildContext& context,
+                      BuildReport& report);
 
 }  // namespace strahl

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -10,12 +11,37 @@
 namespace strahl {
 namespace {
 
+const Vec3f kNoCorner = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+
 float* planes_of(std::byte* node) { return reinterpret_cast<float*>(node); }
 
 void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane, const Vec3f (&abc)[3]) {
   auto* rows = reinterpret_cast<float*>(block + sizeof(LeafBound));
   for (std::uint32_t row = 0; row < 9; ++row)
     rows[row * lanes + lane] = abc[row / 3][static_cast<int>(row % 3)];
+}
+
+/// Corners that are floats of the frame, as those of most scenes are, with their bounds.
+/// @returns false, and nothing is of use, where some are not
+bool write_float_corners(std::byte* block, std::span<const TriangleVertices> triangles) {
+  auto* rows = reinterpret_cast<float*>(block + sizeof(LeafBound));
+  const std::size_t lanes = triangles.size();
+  double longest = 0.0;
+  bool are_floats = true;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const TriangleVertices& t = triangles[i];
+    const Vec3d ab = t.b - t.a, ac = t.c - t.a;
+    longest = std::max({longest, dot(ab, ab), dot(ac, ac)});
+    const double values[9] = {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+    for (std::size_t row = 0; row < 9; ++row) {
+      const auto value = static_cast<float>(values[row]);
+      are_floats &= static_cast<double>(value) == values[row];
+      rows[row * lanes + i] = value;
+    }
+  }
+  const LeafBound bound = leaf_bound(longest, 0.0);
+  std::memcpy(block, &bound, sizeof bound);
+  return are_floats;
 }
 
 }  // namespace
@@ -28,8 +54,7 @@ void clear_boxes(std::byte* node, int width) {
 
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame) {
   const Vec3d lo = frame.to_frame(box.lo), hi = frame.to_frame(box.hi);
-  // to_frame() rounds by 2^-53 of its result; where it does, one float more is far enough.
-  const double off = frame.is_identity() ? 0.0 : 0x1p-50 * frame.reach;
+  const double off = frame.rounding();
   for (int axis = 0; axis < 3; ++axis) {
     planes_of(node)[axis * width + slot] = float_below(lo[axis] - off);
     planes_of(node)[(axis + 3) * width + slot] = float_above(hi[axis] + off);
@@ -39,15 +64,17 @@ void write_box(std::byte* node, int width, int slot, const Aabb& box, const Wide
 void write_block(std::byte* block, std::span<const std::uint32_t> references,
                  const WideFrame& frame, const PrimitiveSource& source) {
   const auto lanes = static_cast<std::uint32_t>(references.size());
-  const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+  std::array<TriangleVertices, kWideMaxLanes> triangles;
   std::array<LaneCorners, kWideMaxLanes> corners;
+  source.triangles(references, triangles.data());
+  if (frame.is_identity() && write_float_corners(block, std::span(triangles).first(lanes))) return;
   for (std::uint32_t i = 0; i < lanes; ++i) {
-    TriangleVertices triangle;
-    const bool is_triangle = source.triangle(references[i], triangle);
-    if (is_triangle) corners[i] = lane_corners(triangle, frame);
-    const LaneCorners& at = corners[i];
-    write_lane(block, lanes, i,
-               {is_triangle ? at.a : nan, is_triangle ? at.b : nan, is_triangle ? at.c : nan});
+    const bool is_triangle = !std::isnan(triangles[i].a.x);
+    corners[i] = is_triangle ? lane_corners(triangles[i], frame) : LaneCorners{};
+    if (is_triangle)
+      write_lane(block, lanes, i, {corners[i].a, corners[i].b, corners[i].c});
+    else
+      write_lane(block, lanes, i, {kNoCorner, kNoCorner, kNoCorner});
   }
   const LeafBound bound = leaf_bound(std::span(corners).first(lanes));
   std::memcpy(block, &bound, sizeof bound);
