@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <strahl/base/large_pages.h>
 #include <strahl/build/collapse.h>
 
 namespace strahl {
@@ -16,10 +17,13 @@ Collapse::Collapse(const Tree& tree, const CollapseRules& rules, const BuildCont
       executor_(context.executor),
       whole_(tree.nodes[0].box.half_area()),
       runs_(tree.nodes.size()),
-      is_block_(tree.nodes.size(), 0),
-      choices_(tree.nodes.size() * static_cast<std::size_t>(rules.width), 0) {
+      is_block_(tree.nodes.size(), 0) {
   if (rules.width < 2 || rules.width > CollapseRules::kMaxWidth)
     throw std::logic_error("collapse: width");
+  const std::size_t choices = tree.nodes.size() * static_cast<std::size_t>(rules.width);
+  choices_.reserve(choices);
+  prefer_large_pages(choices_.data(), choices);
+  choices_.resize(choices);
   context.check(0.0, "collapsing");
   cost_ = solve(0, static_cast<std::uint32_t>(tree.nodes.size()))[1];
   context.check(1.0, "collapsing");

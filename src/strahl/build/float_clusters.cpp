@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstdint>
 
+#include <strahl/base/large_pages.h>
 #include <strahl/build/float_clusters.h>
 
 namespace strahl {
@@ -78,6 +79,8 @@ std::unique_ptr<Place[]> sorted_places(std::span<const FloatRef> refs, const Flo
                                        const BuildContext& context) {
   auto places = std::make_unique_for_overwrite<Place[]>(refs.size());
   auto other = std::make_unique_for_overwrite<Place[]>(refs.size());
+  prefer_large_pages(places.get(), refs.size() * sizeof(Place));
+  prefer_large_pages(other.get(), refs.size() * sizeof(Place));
   const Curve curve(centers);
   context.executor.parallel_for(0, refs.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     context.check(static_cast<double>(begin) / static_cast<double>(refs.size()), "sorting");
@@ -124,6 +127,7 @@ FloatClusters make_clusters(std::span<const FloatRef> refs, const FloatBox& cent
   made.clusters.reserve(4 * refs.size() / most);
   Cutter(places.get(), most, made.clusters).cut(0, static_cast<std::uint32_t>(refs.size()));
   made.sorted = std::make_unique_for_overwrite<FloatRef[]>(refs.size());
+  prefer_large_pages(made.sorted.get(), refs.size() * sizeof(FloatRef));
   context.executor.parallel_for(
       0, made.clusters.size(), kChunk / most, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {

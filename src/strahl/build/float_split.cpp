@@ -129,7 +129,8 @@ FloatSet FloatSplitter::bounded(std::uint32_t begin, std::uint32_t end) const {
 }
 
 FloatSplit FloatSplitter::find(const FloatSet& set) const {
-  const int bins = std::min(bins_, static_cast<int>(std::min<std::size_t>(2 * set.size(), 1024)));
+  // Few primitives need few bins.
+  const auto bins = static_cast<int>(std::min(static_cast<std::size_t>(bins_), set.size() / 2 + 4));
   const BinScale scale(set.centers, bins);
   BinTable table(bins);
   if (are_weighted_)

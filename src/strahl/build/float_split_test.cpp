@@ -91,7 +91,7 @@ TEST(FloatSplit, FindsTheCheapestDivisionAndCarriesItOut) {
         const FloatSet whole = splitter.bounded(0, static_cast<std::uint32_t>(count));
         expect_bounded(splitter, whole);
         const FloatSplit split = splitter.find(whole);
-        const int bins = std::min(16, static_cast<int>(2 * count));
+        const int bins = std::min(16, static_cast<int>(count / 2 + 4));
         const double best = cheapest(given, whole, bins);
         ASSERT_TRUE(split.is_found());
         ASSERT_NEAR(split.cost, best, 1e-5 * best);

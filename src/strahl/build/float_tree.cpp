@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include <strahl/base/large_pages.h>
 #include <strahl/build/float_clusters.h>
 #include <strahl/build/float_split.h>
 #include <strahl/build/float_tree.h>
@@ -116,10 +117,12 @@ Tree build_float_tree(std::span<FloatRef> refs, const FloatTreeRules& rules,
                       const BuildContext& context) {
   const auto count = static_cast<std::uint32_t>(refs.size());
   const auto copies = std::make_unique_for_overwrite<FloatRef[]>(count);
+  prefer_large_pages(copies.get(), count * sizeof(FloatRef));
   const FloatSplitter splitter(refs, {copies.get(), count}, rules.bins, false);
   Tree tree;
   tree.references.reserve(count);
   tree.nodes.reserve(4 * refs.size() / (rules.undivided + 1) + 1);
+  prefer_large_pages(tree.nodes.data(), tree.nodes.capacity() * sizeof(TreeNode));
   FloatPolicy policy(splitter, refs, rules);
   TopDown<FloatPolicy> loop(policy, context, count);
   const FloatSet whole = splitter.bounded(0, count);

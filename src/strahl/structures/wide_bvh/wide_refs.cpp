@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include <strahl/base/large_pages.h>
 #include <strahl/math/float_round.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_refs.h>
@@ -33,6 +34,7 @@ class RefMaker {
   WideRefs run() {
     WideRefs made;
     made.room = std::make_unique_for_overwrite<FloatRef[]>(source_.size());
+    prefer_large_pages(made.room.get(), source_.size() * sizeof(FloatRef));
     fill(made.room.get(), made.frame);
     Aabb box;
     made.all_floats = true;
