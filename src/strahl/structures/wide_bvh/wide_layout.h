@@ -14,8 +14,9 @@ namespace strahl {
 void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
                   std::span<int> slots);
 
-/// Writes nodes depth first, each followed by its blocks and then its inner children. Adds nodes,
-/// leaves, references, depth and bytes to the report.
+/// Writes nodes depth first, each followed by its blocks and then its inner children. Subtrees are
+/// measured first, so that they can be written at once; the result does not depend on threads. Sets
+/// nodes, leaves, references, depth and bytes of the report.
 /// Throws Error{resource} above the memory limit or 4 GiB, Error{cancelled}.
 /// @param source whose things the references are
 /// @param box_frame of the tree's boxes into `frame`: that itself, or none where they are in it
