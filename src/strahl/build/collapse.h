@@ -6,7 +6,8 @@
 // Method: cost(x, j) is that of the subtree x given as at most j children of a wide node. One child
 //   is a block or a wide node; j children are what the left and right subtree give with k and j -
 //   k.
-// Differs from the paper: plain cost of a block instead of a cost per primitive.
+// Differs from the paper: plain cost of a block instead of a cost per primitive; a subtree is not
+//   asked for more children than it has leaves.
 // Thread safety: const methods are safe from any number of threads.
 #pragma once
 
@@ -33,7 +34,8 @@ struct CollapseRules {
 /// The chosen wide nodes and blocks of a tree. The tree must outlive it.
 class Collapse {
  public:
-  /// O(nodes * width^2). Throws Error{cancelled}.
+  /// O(nodes * width^2), less where subtrees have fewer leaves. The same for any executor. Throws
+  /// Error{cancelled}.
   Collapse(const Tree& tree, const CollapseRules& rules, const BuildContext& context);
 
   /// Whether the subtree is a block where it is one child of its own.
@@ -54,13 +56,21 @@ class Collapse {
   }
 
  private:
-  using Costs = std::array<double, CollapseRules::kMaxWidth + 1>;
+  /// Of a subtree given as 1..most children; it has no more leaves, or the width allows no more.
+  struct Costs {
+    int most = 1;
+    std::array<double, CollapseRules::kMaxWidth + 1> at;
+    double& operator[](int children) { return at[static_cast<std::size_t>(children)]; }
+    double operator[](int children) const { return at[static_cast<std::size_t>(children)]; }
+  };
   struct Run {
     std::uint32_t first, count;
   };
 
-  Costs solve(std::uint32_t node);
+  Costs solve(std::uint32_t node, std::uint32_t end);
   Costs solve_leaf(std::uint32_t node);
+  void join(std::uint32_t node, const Costs& left, const Costs& right, Costs& costs);
+  double cheapest_child(std::uint32_t node, double as_children);
   void give(std::uint32_t node, int most, std::uint32_t*& out) const;
   std::uint8_t& choice(std::uint32_t node, int children) {
     return choices_[std::size_t{node} * static_cast<std::size_t>(rules_.width) +
@@ -71,6 +81,7 @@ class Collapse {
 
   const Tree& tree_;
   CollapseRules rules_;
+  const Executor& executor_;
   double whole_;
   double cost_ = 0.0;
   std::vector<Run> runs_;

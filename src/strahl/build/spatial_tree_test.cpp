@@ -142,6 +142,46 @@ TEST(Collapse, IsCheaperTheMoreItMayChoose) {
   }
 }
 
+/// The recurrence for a subtree as 1, 2, ... children, without short cuts.
+std::vector<double> plain_costs(const Tree& tree, const CollapseRules& rules, std::uint32_t node,
+                                std::uint32_t& count) {
+  const TreeNode& at = tree.nodes[node];
+  const double share = at.box.half_area() / tree.nodes[0].box.half_area();
+  const auto width = static_cast<std::size_t>(rules.width);
+  std::vector<double> costs(width + 1, Aabb::kInf);
+  if (!at.is_leaf()) {
+    std::uint32_t left_count, right_count;
+    const auto left = plain_costs(tree, rules, node + 1, left_count);
+    const auto right = plain_costs(tree, rules, at.right, right_count);
+    count = left_count + right_count;
+    for (std::size_t j = 2; j <= width; ++j)
+      for (std::size_t k = 1; k < j; ++k) costs[j] = std::min(costs[j], left[k] + right[j - k]);
+    costs[1] = share * rules.node_cost + costs[width];
+  } else {
+    count = at.count;
+  }
+  if (count <= rules.max_leaf)
+    costs[1] = std::min(costs[1], share * (rules.leaf_cost + rules.primitive_cost * count));
+  for (std::size_t j = 2; j <= width; ++j) costs[j] = std::min(costs[j], costs[j - 1]);
+  return costs;
+}
+
+TEST(Collapse, IsTheCheapestForAnyNumberOfThreads) {
+  BuildContext two;
+  if (Executor::threads_available()) two.executor = Executor::with_threads(2);
+  for (const std::size_t count : {3u, 40u, 9000u}) {
+    const Tree tree = whole_tree(sticks(count, 6));
+    for (const int width : {2, 5, 8, 16}) {
+      CollapseRules rules;
+      rules.width = width;
+      std::uint32_t all;
+      const double expected = plain_costs(tree, rules, 0, all)[1];
+      EXPECT_NEAR(Collapse(tree, rules, {}).cost(), expected, 1e-12 * expected);
+      EXPECT_NEAR(Collapse(tree, rules, two).cost(), expected, 1e-12 * expected);
+    }
+  }
+}
+
 TEST(Collapse, TakesTheOptimumOfFourLeaves) {
   // Two pairs: far apart, so that one node of four children is cheaper than three of two.
   Sticks source;

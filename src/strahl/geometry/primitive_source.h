@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include <strahl/geometry/mesh.h>
 
@@ -26,6 +27,15 @@ class PrimitiveSource {
   /// True when a ray of the structure hits thing i exactly where it crosses a triangle, which is
   /// then written; false for all that is not a triangle or lies under a transformation.
   virtual bool triangle(std::uint32_t /*i*/, TriangleVertices& /*vertices*/) const { return false; }
+
+  /// Many at once: bounds() of things first, first + 1, ...
+  virtual void bounds_from(std::uint32_t first, std::span<Aabb> boxes) const;
+  /// Many at once: triangle() of each reference. Where it is false the corners are NaN.
+  /// @param triangles as many as references
+  virtual void triangles(std::span<const std::uint32_t> references,
+                         TriangleVertices* triangles) const;
+  /// True where it is known without looking that every triangle has corners of floats.
+  virtual bool stores_floats() const { return false; }
 };
 
 }  // namespace strahl

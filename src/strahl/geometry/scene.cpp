@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <strahl/base/error.h>
@@ -83,13 +84,25 @@ double translation_norm(const Affine& a) {
 
 }  // namespace
 
+namespace {
+
+/// Boxes of triangles prim, prim + 1, ...; empty ones of those refused.
+void mesh_bounds(const TriangleMesh& mesh, const std::vector<bool>& refused, std::size_t prim,
+                 std::span<Aabb> boxes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    boxes[i] = !refused.empty() && refused[prim + i] ? Aabb{} : mesh[prim + i].bounds();
+}
+
+}  // namespace
+
 struct Scene::Content {
   explicit Content(SceneData given);
 
   SceneData data;
   std::vector<Part> parts;
   std::vector<std::uint32_t> first_part_of_block, first_references;
-  std::vector<Aabb> geometry_bounds;  ///< of never refused primitives, object space
+  std::vector<Aabb> geometry_bounds;       ///< of never refused primitives, object space
+  std::vector<std::vector<bool>> refused;  ///< per geometry of triangles, empty where none is
   std::vector<RayFrame> object_frames;
   SceneCounts counts;
   bool has_hidden_geometry = false;
@@ -126,6 +139,7 @@ void Scene::Content::check_geometries() {
       counts.triangles += g.size();
     }
     counts.spheres += g.spheres.size(), counts.cones += g.cones.size();
+    refused.emplace_back();
     geometry_bounds.push_back(g.kind == PrimitiveKind::triangle ? check_triangles(g)
                                                                 : check_curved(g));
   }
@@ -138,6 +152,9 @@ Aabb Scene::Content::check_triangles(const Geometry& g) {
     const TriangleDefect defect = find_defect(tri);
     count_defect(defect, counts);
     all.extend(box_of(tri, defect));
+    if (defect == TriangleDefect::none) continue;
+    refused.back().resize(g.size());
+    refused.back()[i] = true;
   }
   return all;
 }
@@ -344,6 +361,39 @@ Aabb Scene::bounds(std::uint32_t reference) const {
   const Affine& map = instances_[part.instance].to_world;
   if (g.kind != PrimitiveKind::triangle) return transformed(map, own);
   return transformed(map, g.mesh[reference - part.first_reference]).bounds();
+}
+
+void Scene::bounds_from(std::uint32_t first, std::span<Aabb> boxes) const {
+  while (!boxes.empty()) {
+    const Part& part = part_of(first);
+    const Geometry& g = geometries_[part.geometry];
+    const std::size_t prim = first - part.first_reference;
+    const auto here = boxes.first(std::min(boxes.size(), g.size() - prim));
+    if (g.kind == PrimitiveKind::triangle && is_identity_[part.instance] != 0)
+      mesh_bounds(g.mesh, content_->refused[part.geometry], prim, here);
+    else
+      PrimitiveSource::bounds_from(first, here);
+    first += static_cast<std::uint32_t>(here.size());
+    boxes = boxes.subspan(here.size());
+  }
+}
+
+void Scene::triangles(std::span<const std::uint32_t> references,
+                      TriangleVertices* triangles) const {
+  const Vec3d nan = Vec3d::all(std::numeric_limits<double>::quiet_NaN());
+  for (const std::uint32_t reference : references) {
+    const Part& part = part_of(reference);
+    const Geometry& g = geometries_[part.geometry];
+    const bool is_triangle = g.kind == PrimitiveKind::triangle && is_identity_[part.instance] != 0;
+    *triangles++ =
+        is_triangle ? g.mesh[reference - part.first_reference] : TriangleVertices{nan, nan, nan};
+  }
+}
+
+bool Scene::stores_floats() const {
+  return std::none_of(geometries_.begin(), geometries_.end(), [](const Geometry& g) {
+    return g.kind == PrimitiveKind::triangle && g.mesh.vertices.is_double;
+  });
 }
 
 Aabb Scene::clip(std::uint32_t reference, const Aabb& box) const {

@@ -151,6 +151,10 @@ class Scene final : public PrimitiveSource {
   Aabb clip(std::uint32_t reference, const Aabb& box) const override;
   Outline outline(std::uint32_t reference) const override;
   bool triangle(std::uint32_t reference, TriangleVertices& vertices) const override;
+  void bounds_from(std::uint32_t first, std::span<Aabb> boxes) const override;
+  void triangles(std::span<const std::uint32_t> references,
+                 TriangleVertices* triangles) const override;
+  bool stores_floats() const override;
   /// The same in the object space of the reference's instance.
   Aabb object_bounds(std::uint32_t reference) const;
   Aabb object_clip(std::uint32_t reference, const Aabb& box) const;

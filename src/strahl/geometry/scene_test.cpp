@@ -108,6 +108,42 @@ TEST(Scene, TheHashSeesGeometryAndInstancesButNotWarnings) {
   EXPECT_NE(Scene(data).hash(), before);
 }
 
+/// Meshes with and without refused triangles, spheres, all under two instances.
+TEST(Scene, ManyAtOnceAreWhatTheyAreOneByOne) {
+  SceneData data = one(triangles(corners(), {0, 1, 2, 0, 1, 1, 1, 2, 3}));
+  data.geometries.push_back(triangles(corners(), {0, 1, 3, 0, 2, 3}));
+  data.geometries.emplace_back().kind = PrimitiveKind::sphere;
+  data.geometries.back().spheres = {{{0, 0, 0}, 1.0}, {{1, 2, 3}, 0.5}};
+  data.instances = {{0, 3, {}, 0}, {0, 3, Affine::translation({1, 2, 3}), 1}, {1, 2, {}, 2}};
+  const Scene scene(std::move(data));
+  for (std::uint32_t first = 0; first < scene.size(); ++first)
+    for (std::uint32_t count = 0; first + count <= scene.size(); ++count) {
+      std::vector<Aabb> boxes(count);
+      std::vector<std::uint32_t> references(count);
+      std::vector<TriangleVertices> corners(count);
+      for (std::uint32_t i = 0; i < count; ++i) references[i] = first + count - 1 - i;
+      scene.bounds_from(first, boxes);
+      scene.triangles(references, corners.data());
+      for (std::uint32_t i = 0; i < count; ++i) {
+        EXPECT_EQ(boxes[i], scene.bounds(first + i));
+        TriangleVertices one;
+        const bool is_triangle = scene.triangle(references[i], one);
+        EXPECT_EQ(std::isnan(corners[i].b.y), !is_triangle);
+        if (is_triangle) {
+          EXPECT_EQ(corners[i].bounds(), one.bounds());
+        }
+      }
+    }
+}
+
+TEST(Scene, KnowsWhetherItStoresFloats) {
+  SceneData data = one(triangles(corners(), {0, 1, 2}));
+  EXPECT_FALSE(Scene(data).stores_floats());
+  data.geometries[0].mesh =
+      make_mesh(std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+  EXPECT_TRUE(Scene(data).stores_floats());
+}
+
 TEST(Scene, AnEmptySceneHasNoReferences) {
   const Scene scene{SceneData{}};
   EXPECT_EQ(scene.size(), 0u);

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <strahl/build/float_tree.h>
 #include <strahl/build/linked_tree.h>
-#include <strahl/build/object_tree.h>
 #include <strahl/build/optimise.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
@@ -13,13 +13,14 @@
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_refit.h>
+#include <strahl/structures/wide_bvh/wide_refs.h>
 
 namespace strahl {
 namespace {
 
-/// Most bytes at a time per primitive: references, the binary tree, the choices of the collapse.
-std::uint64_t bytes_per_primitive(int width) {
-  return sizeof(PrimRef) + 2 * sizeof(TreeNode) + sizeof(std::uint32_t) + Collapse::bytes(2, width);
+/// Most bytes at a time per primitive of binary tree and collapse.
+std::uint64_t tree_bytes(int width) {
+  return 2 * sizeof(TreeNode) + sizeof(std::uint32_t) + Collapse::bytes(2, width);
 }
 
 int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
@@ -27,12 +28,12 @@ int width_of(const WideBvhOptions& options, const WideKernel& kernel) {
   return options.width == WideWidth::sixteen ? 16 : 8;
 }
 
-/// Whether all things are triangles with float corners.
+/// Whether all triangles have float corners.
 bool have_float_corners(std::span<const PrimRef> refs, const PrimitiveSource& source) {
-  return std::all_of(refs.begin(), refs.end(), [&](const PrimRef& ref) {
-    TriangleVertices triangle;
-    return !source.triangle(ref.reference, triangle) || has_float_corners(triangle);
-  });
+  return source.stores_floats() || std::all_of(refs.begin(), refs.end(), [&](const PrimRef& ref) {
+           TriangleVertices triangle;
+           return !source.triangle(ref.reference, triangle) || has_float_corners(triangle);
+         });
 }
 
 /// The tree with nodes moved to where they cost less.
@@ -48,19 +49,49 @@ Tree reinserted(Tree tree, const BuildContext& context) {
   return limit_depth(make_tree(linked), kWideMaxDepth, {1.0, 1.0}, context);
 }
 
-/// A binary tree down to very few references, which a block would hold anyway.
-Tree build_binary(const PrimitiveSource& source, std::vector<PrimRef> refs, const Aabb& box,
-                  WideQuality quality, std::size_t max_leaf, const BuildContext& context) {
-  if (quality == WideQuality::high) {
-    SpatialRules rules;
-    rules.max_depth = kWideMaxDepth;
-    return build_spatial_tree(source, std::move(refs), box, rules, context);
-  }
+/// A binary tree over a source, empty when nothing can be hit.
+struct BinaryTree {
+  Tree tree;
+  WideFrame frame;      ///< that suits it
+  WideFrame box_frame;  ///< of the boxes into that
+  bool all_floats = false;
+};
+
+/// Divides things only, in boxes of floats.
+BinaryTree divide_things(const PrimitiveSource& source, WideQuality quality,
+                         const CollapseRules& wide, const BuildContext& context) {
+  WideRefs refs = make_wide_refs(source, context);
+  BinaryTree binary{{}, refs.frame, {}, refs.all_floats};
+  if (refs.count == 0) return binary;
   const bool is_fast = quality == WideQuality::fast;
-  const auto splitter = make_binned_splitter(refs, is_fast ? 8 : 32, {1.0, 1.0});
-  const std::size_t undivided = is_fast ? 8 : 3;  // so few make a block anyway
-  const LeafRules rules{{1.0, 1.0}, 1, kWideMaxDepth, std::min(undivided, max_leaf)};
-  return build_object_tree(*splitter, refs.size(), box, rules, context);
+  FloatTreeRules rules;
+  rules.bins = is_fast ? 8 : 32, rules.max_depth = kWideMaxDepth;
+  // So few make a block anyway.
+  rules.undivided = std::min<std::size_t>(is_fast ? 8 : 3, wide.max_leaf);
+  if (is_fast) rules.cluster = 16, rules.opened = 512;
+  context.require_memory(
+      refs.count * (sizeof(FloatRef) + float_tree_bytes(rules) + tree_bytes(wide.width)),
+      "wide_bvh");
+  binary.tree = build_float_tree(refs.refs(), rules, context);
+  return binary;
+}
+
+/// Cuts things, too, and moves nodes afterwards.
+BinaryTree cut_things(const PrimitiveSource& source, const CollapseRules& wide,
+                      const BuildContext& context) {
+  std::vector<PrimRef> refs = make_prim_refs(source, context);
+  BinaryTree binary;
+  if (refs.empty()) return binary;
+  context.require_memory(refs.size() * (sizeof(PrimRef) + tree_bytes(wide.width)), "wide_bvh");
+  Aabb box;
+  for (const PrimRef& ref : refs) box.extend(ref.box);
+  binary.all_floats = have_float_corners(refs, source);
+  binary.frame = binary.box_frame = make_wide_frame(box);
+  SpatialRules rules;
+  rules.max_depth = kWideMaxDepth;
+  binary.tree = build_spatial_tree(source, std::move(refs), box, rules, context);
+  binary.tree = reinserted(std::move(binary.tree), context);
+  return binary;
 }
 
 }  // namespace
@@ -90,24 +121,21 @@ OptionTable<WideBvhOptions> option_fields(const WideBvhOptions*) {
 
 WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const BuildContext& context)
     : options_(options), kernel_(&wide_kernel_of_environment()), batch_(options.batch) {
-  std::vector<PrimRef> refs = make_prim_refs(source, context);
-  if (refs.empty()) return;
-  const int width = width_of(options, *kernel_);
-  context.require_memory(refs.size() * bytes_per_primitive(width), "wide_bvh");
-  Aabb box;
-  for (const PrimRef& ref : refs) box.extend(ref.box);
-  WideTree empty;
-  empty.width = width, empty.layout = options.layout, empty.frame = make_wide_frame(box);
-  empty.has_exact_corners = have_float_corners(refs, source) && empty.frame.is_identity();
   CollapseRules rules;
-  rules.width = width;
-  rules.max_leaf =
-      static_cast<std::size_t>(options.leaf_size > 0 ? std::min(options.leaf_size, width) : width);
-  Tree tree = build_binary(source, std::move(refs), box, options.quality, rules.max_leaf, context);
-  if (options.quality == WideQuality::high) tree = reinserted(std::move(tree), context);
-  const Collapse collapse(tree, rules, context);
+  rules.width = width_of(options, *kernel_);
+  rules.max_leaf = static_cast<std::size_t>(
+      options.leaf_size > 0 ? std::min(options.leaf_size, rules.width) : rules.width);
+  const BinaryTree binary = options.quality == WideQuality::high
+                                ? cut_things(source, rules, context)
+                                : divide_things(source, options.quality, rules, context);
+  if (binary.tree.nodes.empty()) return;
+  const Collapse collapse(binary.tree, rules, context);
   report_.sah_cost = built_cost_ = collapse.cost();
-  tree_ = lay_out_wide(tree, collapse, std::move(empty), source, context, report_);
+  WideTree empty;
+  empty.width = rules.width, empty.layout = options.layout, empty.frame = binary.frame;
+  empty.has_exact_corners = binary.all_floats && binary.frame.is_identity();
+  tree_ = lay_out_wide(binary.tree, collapse, binary.box_frame, std::move(empty), source, context,
+                       report_);
 }
 
 void WideBvh::refit(const PrimitiveSource& source, const BuildContext& context) {

@@ -73,6 +73,11 @@ inline bool has_float_corners(const TriangleVertices& t) {
 /// Corners in the frame, rounded to nearest.
 LaneCorners lane_corners(const TriangleVertices& triangle, const WideFrame& frame);
 
+/// The bounds of a block.
+/// @param longest edge from a corner a, squared
+/// @param error of all corners
+LeafBound leaf_bound(double longest, double error);
+
 /// The bounds of a block of these triangles. Infinite corners make every lane uncertain.
 LeafBound leaf_bound(std::span<const LaneCorners> lanes);
 

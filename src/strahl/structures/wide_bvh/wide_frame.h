@@ -19,6 +19,8 @@ struct WideFrame {
   bool is_identity() const { return scale == 1.0 && center == Vec3d{}; }
   /// Rounded: each component to within 2^-53 of its magnitude.
   Vec3d to_frame(const Vec3d& p) const { return (p - center) * scale; }
+  /// At most so much of a plane within reach is lost by to_frame().
+  double rounding() const { return is_identity() ? 0.0 : 0x1p-50 * reach; }
 };
 
 /// A frame for things within `box`, which may be empty.

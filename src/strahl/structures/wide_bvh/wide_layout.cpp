@@ -1,52 +1,63 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
+#include <strahl/build/sort_few.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
 
 namespace strahl {
 namespace {
 
+constexpr std::size_t kForkReferences = 8192;    // smaller subtrees stay on one thread
+constexpr std::size_t kReportReferences = 2048;  // and do not report
+constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
+
 /// What a compact tree may take per thing for the sake of exact corners, and how many units it
 /// may spend per block: most blocks need one, few with many triangles five.
 constexpr std::uint64_t kCompactBytes = 36;
-constexpr std::size_t kMostSpare = 5;
+constexpr std::uint32_t kMostSpare = 5;
 
-constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
+/// What is known of a block once it has been looked at, in the place of a subtree's units.
+struct BlockPlan {
+  std::uint32_t lanes = 0, indexed = 0, rounded = 0;  ///< indexed, rounded: units
 
-/// The octant of a slot: bit a set on the high side of axis a.
-unsigned octant_of(int slot, int width) { return static_cast<unsigned>(slot) >> (width == 16); }
-
-double fit(const Vec3d& offset, unsigned octant) {
-  return ((octant & 1u) != 0 ? offset.x : -offset.x) + ((octant & 2u) != 0 ? offset.y : -offset.y) +
-         ((octant & 4u) != 0 ? offset.z : -offset.z);
-}
+  static BlockPlan of(std::uint32_t word) { return {word & 255u, word >> 8 & 255u, word >> 16}; }
+  std::uint32_t word() const { return lanes | indexed << 8 | rounded << 16; }
+  std::uint32_t units(std::uint32_t spare) const {
+    return indexed <= rounded + spare ? indexed : rounded;
+  }
+};
 
 class Layout {
  public:
-  Layout(const Tree& tree, const Collapse& collapse, WideTree& out, const PrimitiveSource& source,
-         const BuildContext& context, BuildReport& report)
+  Layout(const Tree& tree, const Collapse& collapse, const WideFrame& box_frame, WideTree& out,
+         const PrimitiveSource& source, const BuildContext& context, BuildReport& report)
       : tree_(tree),
         collapse_(collapse),
+        box_frame_(box_frame),
         out_(out),
         source_(source),
         context_(context),
-        report_(report) {}
+        report_(report),
+        units_(tree.nodes.size()) {}
 
   void run() {
-    if (collapse_.is_block(0))
-      grow(0);
-    else
-      measure(0);
-    choose_spare();
-    if (total_units_ > kWideMaxUnits)
+    Extent all = measure(0);
+    if (out_.layout == WideLayout::compact) all = spend_spare(all);
+    if (all.units > kWideMaxUnits)
       throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
+    total_units_ = all.units;
     const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
     context_.require_memory(bytes, "wide_bvh");
     out_.arena = WideArena(bytes);
-    out_.root = collapse_.is_block(0) ? write_block(0, 0) : write_node(0, 0);
-    report_.bytes = bytes;
+    if (collapse_.is_block(0))
+      out_.root = write_block(0, 0);
+    else
+      write_node(0, out_.root = 0, true);
+    report_.nodes = all.nodes, report_.leaves = all.leaves, report_.references = all.references;
+    report_.depth = all.depth, report_.bytes = bytes;
   }
 
  private:
@@ -56,6 +67,15 @@ class Layout {
     int count;
     auto begin() const { return node.begin(); }
     auto end() const { return node.begin() + count; }
+    std::size_t size() const { return static_cast<std::size_t>(count); }
+  };
+  /// What a subtree takes, and what is in it. Its first unit is that of a cache line.
+  struct Extent {
+    std::uint64_t units = 0, nodes = 0, leaves = 0, references = 0, depth = 0;
+    void add(const Extent& child) {
+      units += child.units, nodes += child.nodes, leaves += child.leaves;
+      references += child.references, depth = std::max(depth, child.depth + 1);
+    }
   };
 
   Children children_of(std::uint32_t node) const {
@@ -72,84 +92,119 @@ class Layout {
     return (unit + 1) / 2 * 2;
   }
 
-  void measure(std::uint32_t node) {
-    for (std::uint64_t& total : totals_) total = aligned(total) + units(node_bytes(out_.width));
+  /// Calls visit(i) for the children of a node, at once where the node is large.
+  template <class Visit>
+  void each_child(std::uint32_t node, std::size_t count, Visit visit) const {
+    if (collapse_.references(node).size() < kForkReferences) {
+      for (std::size_t i = 0; i < count; ++i) visit(i);
+      return;
+    }
+    context_.executor.parallel_for(0, count, 1, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) visit(i);
+    });
+  }
+
+  Extent measure(std::uint32_t node) {
+    if (collapse_.is_block(node)) return measure_block(node);
+    const Children children = children_of(node);
+    std::array<Extent, kMaxWidth> extents;
+    each_child(node, children.size(),
+               [&](std::size_t i) { extents[i] = measure(children.node[i]); });
+    Extent all{units(node_bytes(out_.width)), 1, 0, 0, 0};
     for (const bool blocks : {true, false})
-      for (const std::uint32_t child : children_of(node)) {
-        if (collapse_.is_block(child) != blocks) continue;
-        if (blocks)
-          grow(child);
-        else
-          measure(child);
+      for (std::size_t i = 0; i < children.size(); ++i) {
+        if (collapse_.is_block(children.node[i]) != blocks) continue;
+        if (!blocks) all.units = aligned(all.units);
+        all.add(extents[i]);
       }
+    units_[node] = static_cast<std::uint32_t>(all.units);
+    return all;
   }
 
-  /// By a block. All totals are the same in the full layout.
-  void grow(std::uint32_t block) {
+  Extent measure_block(std::uint32_t node) {
+    if (units_[node] == 0) units_[node] = plan_of(node).word();
+    const BlockPlan plan = BlockPlan::of(units_[node]);
+    return {plan.units(spare_), 1, 1, plan.lanes, 0};
+  }
+
+  BlockPlan plan_of(std::uint32_t node) const {
     Lanes room;
-    const auto references = block_references(block, room);
+    const auto references = block_references(node, room);
     const BlockSizes sizes = block_sizes(references, out_, source_);
-    for (std::size_t spare = 0; spare <= kMostSpare; ++spare)
-      totals_[spare] += units(sizes.bytes(spare));
+    return {static_cast<std::uint32_t>(references.size()),
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(units(sizes.indexed), 255)),
+            static_cast<std::uint32_t>(units(sizes.rounded))};
   }
 
-  /// As many as kCompactBytes per thing allow.
-  void choose_spare() {
+  /// As many units per block as kCompactBytes per thing allow.
+  Extent spend_spare(Extent all) {
     const std::uint64_t allowed = kCompactBytes * source_.size() / kWideUnit;
-    while (spare_ < kMostSpare && totals_[spare_ + 1] <= allowed) ++spare_;
-    total_units_ = totals_[spare_];
+    while (spare_ < kMostSpare) {
+      ++spare_;
+      const Extent more = measure(0);
+      if (more.units <= allowed) {
+        all = more;
+        continue;
+      }
+      --spare_;
+      return measure(0);
+    }
+    return all;
   }
 
-  std::byte* take(std::size_t bytes, std::uint32_t& unit) {
-    unit = next_unit_;
-    next_unit_ += static_cast<std::uint32_t>(units(bytes));
-    return out_.arena.data() + std::size_t{unit} * kWideUnit;
-  }
+  std::byte* at(std::uint32_t unit) { return out_.arena.data() + std::size_t{unit} * kWideUnit; }
 
   /// References of a block, ascending, each once: parts of one primitive may meet again.
   std::span<const std::uint32_t> block_references(std::uint32_t node, Lanes& room) const {
     const std::span<const std::uint32_t> all = collapse_.references(node);
     std::copy(all.begin(), all.end(), room.begin());
     const auto end = room.begin() + static_cast<std::ptrdiff_t>(all.size());
-    std::sort(room.begin(), end);
+    sort_few(std::span(room).first(all.size()));
     return {room.begin(), std::unique(room.begin(), end)};
   }
 
-  WideId write_block(std::uint32_t node, std::uint64_t depth) {
+  WideId write_block(std::uint32_t node, std::uint32_t unit) {
     Lanes room;
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
-    std::uint32_t unit;
-    const std::size_t bytes = block_sizes(references, out_, source_).bytes(spare_);
-    std::byte* block = take(bytes, unit);
+    std::byte* block = at(unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
-    strahl::write_block(block, references, out_, source_, bytes);
-    ++report_.nodes, ++report_.leaves, report_.references += lanes;
-    report_.depth = std::max(report_.depth, depth);
+    strahl::write_block(block, references, out_, source_, block_units(node) * kWideUnit);
     return kWideLeaf | unit << 4 | (lanes - 1);
   }
+  std::uint32_t block_units(std::uint32_t node) const {
+    return BlockPlan::of(units_[node]).units(spare_);
+  }
 
-  WideId write_node(std::uint32_t node, std::uint64_t depth) {
-    if (report_.nodes % 4096 == 0)
-      context_.check(static_cast<double>(next_unit_) / static_cast<double>(total_units_),
-                     "laying out");
-    ++report_.nodes;
+  void write_node(std::uint32_t node, std::uint32_t unit, bool is_root) {
+    if (is_root || collapse_.references(node).size() >= kReportReferences)
+      context_.check(static_cast<double>(unit) / static_cast<double>(total_units_), "laying out");
     const Children children = children_of(node);
-    std::uint32_t unit;
-    next_unit_ = aligned(next_unit_);
-    std::byte* at = take(node_bytes(out_.width), unit);
+    std::byte* const to = at(unit);
     std::array<int, kMaxWidth> slots;
     place(node, children, slots);
-    write_boxes(at, children, slots);
-    auto* ids = const_cast<WideId*>(child_row(at, out_.width));
-    for (const bool blocks : {true, false})
-      for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i) {
-        const std::uint32_t child = children.node[i];
-        if (collapse_.is_block(child) != blocks) continue;
-        ids[slots[i]] = blocks ? write_block(child, depth + 1) : write_node(child, depth + 1);
+    write_boxes(to, children, slots);
+    auto* ids = const_cast<WideId*>(child_row(to, out_.width));
+    std::array<std::uint32_t, kMaxWidth> inner;  // children that are nodes
+    std::size_t inner_count = 0;
+    std::uint32_t next = unit + static_cast<std::uint32_t>(units(node_bytes(out_.width)));
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (!collapse_.is_block(children.node[i])) {
+        inner[inner_count++] = static_cast<std::uint32_t>(i);
+        continue;
       }
-    return unit;
+      ids[slots[i]] = write_block(children.node[i], next);
+      next += block_units(children.node[i]);
+    }
+    for (std::size_t i = 0; i < inner_count; ++i) {
+      next = aligned(next);
+      ids[slots[inner[i]]] = next;
+      next += units_[children.node[inner[i]]];
+    }
+    each_child(node, inner_count, [&](std::size_t i) {
+      write_node(children.node[inner[i]], ids[slots[inner[i]]], false);
+    });
   }
 
   void place(std::uint32_t node, const Children& children, std::span<int> slots) const {
@@ -163,110 +218,29 @@ class Layout {
   void write_boxes(std::byte* at, const Children& children, std::span<const int> slots) const {
     clear_boxes(at, out_.width);
     for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i)
-      write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, out_.frame);
+      write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, box_frame_);
   }
 
   const Tree& tree_;
   const Collapse& collapse_;
+  const WideFrame& box_frame_;
   WideTree& out_;
   const PrimitiveSource& source_;
   const BuildContext& context_;
   BuildReport& report_;
-  std::array<std::uint64_t, kMostSpare + 1> totals_{};  ///< per spare
-  std::uint64_t total_units_ = 0, spare_ = 0;
-  std::uint32_t next_unit_ = 0;
-};
-
-/// Slots of a node's children: the best fitting pair of child and slot first, then exchanges.
-class SlotChoice {
- public:
-  SlotChoice(std::span<const Vec3d> centers, const Vec3d& middle, int width, std::span<int> slots)
-      : slots_(slots),
-        width_(width),
-        count_(centers.size()),
-        free_((std::uint32_t{1} << width) - 1) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const Vec3d offset = centers[i] - middle;
-      least_gain_[i] = kLeastGain * norm1(offset);
-      for (unsigned octant = 0; octant < 8; ++octant) fits_[i][octant] = fit(offset, octant);
-    }
-  }
-
-  void fill() {
-    for (std::uint32_t left = (1u << count_) - 1; left != 0;) {
-      double best = -Aabb::kInf;
-      std::size_t best_child = 0;
-      int best_slot = -1;
-      for (std::size_t child = 0; child < count_; ++child) {
-        if ((left >> child & 1u) == 0) continue;
-        for (int slot = 0; slot < width_; ++slot) {
-          if (!is_free(slot)) continue;
-          const double gain = fit_of(child, slot);
-          if (best_slot >= 0 && !(gain > best)) continue;
-          best = gain, best_child = child, best_slot = slot;
-        }
-      }
-      slots_[best_child] = best_slot;
-      left &= ~(1u << best_child), free_ &= ~(1u << best_slot);
-    }
-  }
-
-  /// Exchanges and moves as long as they fit better; those that fill() took last had little choice.
-  void improve() {
-    bool is_better = true;
-    for (int round = 0; round < kMostRounds && is_better; ++round) {
-      is_better = false;
-      for (std::size_t a = 0; a < count_; ++a) {
-        for (std::size_t b = a + 1; b < count_; ++b) is_better |= exchange(a, b);
-        for (int slot = 0; slot < width_; ++slot) is_better |= is_free(slot) && move(a, slot);
-      }
-    }
-  }
-
- private:
-  static constexpr int kMostRounds = 8;
-  static constexpr double kLeastGain = 1e-6;  ///< relative: roundings are no gain
-
-  bool is_free(int slot) const { return (free_ >> slot & 1u) != 0; }
-  double fit_of(std::size_t child, int slot) const { return fits_[child][octant_of(slot, width_)]; }
-
-  bool exchange(std::size_t a, std::size_t b) {
-    const double now = fit_of(a, slots_[a]) + fit_of(b, slots_[b]);
-    const double then = fit_of(a, slots_[b]) + fit_of(b, slots_[a]);
-    if (!(then > now + least_gain_[a] + least_gain_[b])) return false;
-    std::swap(slots_[a], slots_[b]);
-    return true;
-  }
-  bool move(std::size_t a, int slot) {
-    const double now = fit_of(a, slots_[a]);
-    if (!(fit_of(a, slot) > now + least_gain_[a])) return false;
-    free_ ^= 1u << slot | 1u << slots_[a];
-    slots_[a] = slot;
-    return true;
-  }
-
-  std::span<int> slots_;
-  int width_;
-  std::size_t count_;
-  std::uint32_t free_;
-  std::array<std::array<double, 8>, kMaxWidth> fits_;  ///< of each child into each octant
-  std::array<double, kMaxWidth> least_gain_;
+  std::uint64_t total_units_ = 0;
+  std::uint32_t spare_ = 0;
+  /// Per node of the tree that becomes a wide one: those of its subtree, or the plan of a block.
+  std::vector<std::uint32_t> units_;
 };
 
 }  // namespace
 
-void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width,
-                  std::span<int> slots) {
-  SlotChoice choice(centers, middle, width, slots);
-  choice.fill();
-  choice.improve();
-}
-
-WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, WideTree empty,
-                      const PrimitiveSource& source, const BuildContext& context,
+WideTree lay_out_wide(const Tree& tree, const Collapse& collapse, const WideFrame& box_frame,
+                      WideTree empty, const PrimitiveSource& source, const BuildContext& context,
                       BuildReport& report) {
   WideTree out = std::move(empty);
-  Layout(tree, collapse, out, source, context, report).run();
+  Layout(tree, collapse, box_frame, out, source, context, report).run();
   out.depth = report.depth;
   return out;
 }

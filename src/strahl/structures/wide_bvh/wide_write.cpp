@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -10,6 +11,8 @@
 namespace strahl {
 namespace {
 
+const Vec3f kNoCorner = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+
 float* planes_of(std::byte* node) { return reinterpret_cast<float*>(node); }
 
 void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane, const Vec3f (&abc)[3]) {
@@ -18,7 +21,31 @@ void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane, const
     rows[row * lanes + lane] = abc[row / 3][static_cast<int>(row % 3)];
 }
 
-void write_full_block(std::byte* block, const BlockCorners& corners) {
+/// Corners that are floats of the frame, as those of most scenes are, with their bounds.
+/// @returns false, and nothing is of use, where some are not
+bool write_float_corners(std::byte* block, std::span<const TriangleVertices> triangles) {
+  auto* rows = reinterpret_cast<float*>(block + sizeof(LeafBound));
+  const std::size_t lanes = triangles.size();
+  double longest = 0.0;
+  bool are_floats = true;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    const TriangleVertices& t = triangles[i];
+    const Vec3d ab = t.b - t.a, ac = t.c - t.a;
+    longest = std::max({longest, dot(ab, ab), dot(ac, ac)});
+    const double values[9] = {t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+    for (std::size_t row = 0; row < 9; ++row) {
+      const auto value = static_cast<float>(values[row]);
+      are_floats &= static_cast<double>(value) == values[row];
+      rows[row * lanes + i] = value;
+    }
+  }
+  const LeafBound bound = leaf_bound(longest, 0.0);
+  std::memcpy(block, &bound, sizeof bound);
+  return are_floats;
+}
+
+/// Corners as stored, and their bounds.
+void write_corners(std::byte* block, const BlockCorners& corners) {
   for (std::uint32_t i = 0; i < corners.lanes; ++i) {
     const LaneCorners& at = corners.stored[i];
     write_lane(block, corners.lanes, i, {at.a, at.b, at.c});
@@ -27,15 +54,13 @@ void write_full_block(std::byte* block, const BlockCorners& corners) {
   std::memcpy(block, &bound, sizeof bound);
 }
 
-BlockCorners corners_of(std::span<const std::uint32_t> references, const WideFrame& frame,
-                        const PrimitiveSource& source) {
-  const Vec3f nan = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
+/// @param triangles NaN for things that are none
+BlockCorners corners_of(std::span<const TriangleVertices> triangles, const WideFrame& frame) {
   BlockCorners corners;
-  for (const std::uint32_t reference : references) {
+  for (const TriangleVertices& triangle : triangles) {
     const std::uint32_t i = corners.lanes++;
-    TriangleVertices triangle;
-    if (!source.triangle(reference, triangle)) {
-      corners.stored[i] = {nan, nan, nan};
+    if (std::isnan(triangle.a.x)) {
+      corners.stored[i] = {kNoCorner, kNoCorner, kNoCorner};
       corners.all_triangles = false;
       continue;
     }
@@ -45,6 +70,20 @@ BlockCorners corners_of(std::span<const std::uint32_t> references, const WideFra
   }
   return corners;
 }
+
+/// Triangles of references, asked for at once.
+class BlockTriangles {
+ public:
+  BlockTriangles(std::span<const std::uint32_t> references, const PrimitiveSource& source)
+      : count_(references.size()) {
+    source.triangles(references, triangles_.data());
+  }
+  std::span<const TriangleVertices> all() const { return std::span(triangles_).first(count_); }
+
+ private:
+  std::array<TriangleVertices, kWideMaxLanes> triangles_;
+  std::size_t count_;
+};
 
 }  // namespace
 
@@ -56,8 +95,7 @@ void clear_boxes(std::byte* node, int width) {
 
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame) {
   const Vec3d lo = frame.to_frame(box.lo), hi = frame.to_frame(box.hi);
-  // to_frame() rounds by 2^-53 of its result; where it does, one float more is far enough.
-  const double off = frame.is_identity() ? 0.0 : 0x1p-50 * frame.reach;
+  const double off = frame.rounding();
   for (int axis = 0; axis < 3; ++axis) {
     planes_of(node)[axis * width + slot] = float_below(lo[axis] - off);
     planes_of(node)[(axis + 3) * width + slot] = float_above(hi[axis] + off);
@@ -68,14 +106,16 @@ BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree
                        const PrimitiveSource& source) {
   const std::size_t full = leaf_bytes(references.size());
   if (tree.layout == WideLayout::full) return {full, full};
-  return compact_sizes(corners_of(references, tree.frame, source));
+  return compact_sizes(corners_of(BlockTriangles(references, source).all(), tree.frame));
 }
 
 bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
                  const PrimitiveSource& source, std::size_t bytes) {
-  const BlockCorners corners = corners_of(references, tree.frame, source);
-  if (tree.layout == WideLayout::compact) return write_compact_block(block, corners, bytes);
-  write_full_block(block, corners);
+  const BlockTriangles triangles(references, source);
+  if (tree.layout == WideLayout::compact)
+    return write_compact_block(block, corners_of(triangles.all(), tree.frame), bytes);
+  if (!tree.frame.is_identity() || !write_float_corners(block, triangles.all()))
+    write_corners(block, corners_of(triangles.all(), tree.frame));
   return true;
 }
 
