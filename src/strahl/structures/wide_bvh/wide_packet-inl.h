@@ -51,7 +51,9 @@ class Packet {
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
   /// A child costs a packet what it costs so many rays to visit a node, more where the rays are of
   /// several octants; a ray's test of a block costs as many tests of a triangle by a register.
-  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = 5, kTrianglesPerTest = 4;
+  /// With registers of 8 rays more so.
+  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = kCompresses ? 5 : 12;
+  static constexpr int kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
   struct Waiting {
