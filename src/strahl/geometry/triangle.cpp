@@ -77,14 +77,6 @@ int certain_normal_sign(const Vec3d& P, const Vec3d& Q) {
   return 0;
 }
 
-/// The sign of an edge with an end on the ray's line, where e is 0 and that of the next terms is
-/// certain; else 0. Rays aimed at vertices need nothing wider than this.
-int sign_at_vertex(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q,
-                   const Vec3d& P, const Vec3d& Q) {
-  if (!passes_exactly(dir, org, p, P) && !passes_exactly(dir, org, q, Q)) return 0;
-  return certain_normal_sign(P, Q);
-}
-
 /// numerator / denominator when both are certain to 2^-42, else empty.
 std::optional<double> certified_quotient(double numerator, double numerator_bound,
                                          double denominator, double denominator_bound) {
@@ -181,46 +173,63 @@ int orientation_2d(const Vec3d& p, const Vec3d& q, const Vec3d& r, int axis) {
       .sign();
 }
 
-/// The sign of an edge value where a bound of its error tells, the ray's or that of the edge; else
-/// 0.
-int filtered_sign(const ExactRay& ray, const Vec3d& p, const Vec3d& q, double e) {
-  if (std::abs(e) > ray.edge_error) return sign(e);
-  const Vec3d P = p - ray.org, Q = q - ray.org;
-  if (std::abs(e) > 16 * 0x1p-53 * norm1(ray.dir) * (norm_max(P) * norm_max(Q))) return sign(e);
-  return sign_at_vertex(ray.org, ray.dir, p, q, P, Q);
-}
-
-/// Signs of the edges of a triangle.
-struct EdgeSigns {
-  int ab, ca, bc;
-
-  bool has(int s) const { return ab == s || ca == s || bc == s; }
-  /// Replaces zeros.
-  template <class Ab, class Ca, class Bc>
-  void complete(Ab exact_ab, Ca exact_ca, Bc exact_bc) {
-    if (ab == 0) ab = exact_ab();
-    if (ca == 0) ca = exact_ca();
-    if (bc == 0) bc = exact_bc();
+/// Signs of the edges of a triangle, each found by the cheapest means that is certain. Edge i runs
+/// from corner i to the next: ab, bc, ca.
+class EdgeSigns {
+ public:
+  /// @param e filtered values of ab, ca, bc
+  EdgeSigns(const ExactRay& ray, const TriangleVertices& tri, const Vec3d& e)
+      : ray_(ray), tri_(tri), to_{tri.a - ray.org, tri.b - ray.org, tri.c - ray.org} {
+    const double per_reach = 16 * 0x1p-53 * norm1(ray.dir);
+    const double reach[] = {norm_max(to_[0]), norm_max(to_[1]), norm_max(to_[2])};
+    const double values[] = {e.x, e.z, e.y};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double bound = std::min(ray.edge_error, per_reach * (reach[i] * reach[next(i)]));
+      sign_[i] = std::abs(values[i]) > bound ? sign(values[i]) : 0;
+    }
   }
-};
 
-/// The sign that the edges of a triangle share, if they do.
-/// @param e filtered values of ab, ca, bc
-std::optional<int> common_sign(const ExactRay& ray, const TriangleVertices& tri, const Vec3d& e) {
-  EdgeSigns signs{filtered_sign(ray, tri.a, tri.b, e.x), filtered_sign(ray, tri.c, tri.a, e.y),
-                  filtered_sign(ray, tri.b, tri.c, e.z)};
-  if (signs.has(0) && !(signs.has(1) && signs.has(-1)))
-    if (const auto integers = IntegerEdges::make(ray.org, ray.dir, tri))
-      signs.complete([&] { return integers->ab(); }, [&] { return integers->ca(); },
-                     [&] { return integers->bc(); });
-  if (signs.has(1) && signs.has(-1)) return std::nullopt;
-  const auto exact = [&](const Vec3d& p, const Vec3d& q) {
-    return [&] { return exact_edge_sign(ray.org, ray.dir, p, q); };
-  };
-  signs.complete(exact(tri.a, tri.b), exact(tri.c, tri.a), exact(tri.b, tri.c));
-  if (signs.has(0) || (signs.has(1) && signs.has(-1))) return std::nullopt;
-  return signs.ab;
-}
+  /// The sign that all share, if they do.
+  std::optional<int> common() {
+    if (has(0) && !differ()) find_at_corner();
+    if (has(0) && !differ()) find_by_integers();
+    for (std::size_t i = 0; i < 3 && !differ(); ++i)
+      if (sign_[i] == 0) sign_[i] = exact_edge_sign(ray_.org, ray_.dir, corner(i), corner(next(i)));
+    if (differ() || has(0)) return std::nullopt;
+    return sign_[0];
+  }
+
+ private:
+  static std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
+  const Vec3d& corner(std::size_t i) const { return i == 0 ? tri_.a : i == 1 ? tri_.b : tri_.c; }
+  bool has(int s) const { return sign_[0] == s || sign_[1] == s || sign_[2] == s; }
+  bool differ() const { return has(1) && has(-1); }
+
+  /// Rays aimed at vertices: the two edges there have e = 0, and their next terms are certain.
+  void find_at_corner() {
+    for (std::size_t known = 0; known < 3; ++known) {
+      const std::size_t from = next(known), at = next(from);  // the edges from -> at -> known
+      if (sign_[known] == 0 || sign_[from] != 0 || sign_[at] != 0) continue;
+      if (!passes_exactly(ray_.dir, ray_.org, corner(at), to_[at])) return;
+      sign_[from] = certain_normal_sign(to_[from], to_[at]);
+      if (!differ()) sign_[at] = certain_normal_sign(to_[at], to_[known]);
+      return;
+    }
+  }
+
+  void find_by_integers() {
+    const auto integers = IntegerEdges::make(ray_.org, ray_.dir, tri_);
+    if (!integers) return;
+    if (sign_[0] == 0) sign_[0] = integers->ab();
+    if (sign_[1] == 0) sign_[1] = integers->bc();
+    if (sign_[2] == 0) sign_[2] = integers->ca();
+  }
+
+  const ExactRay& ray_;
+  const TriangleVertices& tri_;
+  Vec3d to_[3];  ///< corners from the origin
+  int sign_[3];  ///< 0 as long as it is not known
+};
 
 /// A nearly convex polygon. Rounding may bend it, so a cut can replace each outside corner by two:
 /// 3 corners become at most 4, 6, 9, 13, 19, 28 in six cuts.
@@ -256,7 +265,7 @@ int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Ve
 
 std::optional<TriangleHit> intersect_uncertain(const ExactRay& ray, const TriangleVertices& tri,
                                                const Vec3d& edge_values) {
-  const std::optional<int> side = common_sign(ray, tri, edge_values);
+  const std::optional<int> side = EdgeSigns(ray, tri, edge_values).common();
   if (!side) return std::nullopt;
   const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
   if (!t) return std::nullopt;
