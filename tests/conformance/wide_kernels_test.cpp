@@ -188,6 +188,17 @@ TEST_P(WideKernels, AnswerRaysOfOneStoredOriginLikeBvh) {
     ASSERT_TRUE(have_same_bits(got[i], expected[i])) << i;
 }
 
+/// Curved things and instances beside triangles of floats, too: their lanes have no corners.
+TEST_P(WideKernels, AnswerFloatRaysInAdversarialScenesLikeBvh) {
+  const ForcedIsa forced(GetParam().c_str());
+  for (const NamedScene& named : adversarial_scenes()) {
+    const auto scene = scene_of(named);
+    SCOPED_TRACE(named.name);
+    expect_like_bvh(scene, FloatRaySet(adversarial_rays(*scene, kRays, 91)),
+                    {"wide_bvh:width=8", "wide_bvh:width=16,layout=compact"});
+  }
+}
+
 /// The triangles of a scene of one mesh, its vertices moved a little to where no floats are.
 std::shared_ptr<const Scene> between_floats(const std::string& name) {
   const SceneData from = load_scene_data(name);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -124,8 +125,7 @@ class WideFloatTrace {
     const Ray ray = given_ray(i);
     Q query(ray, HitFilter{});
     if constexpr (!kIsAny) query.best = answers_[i];
-    tree_.is_exact(tree_.at(leaf)) ? offer_stored(ray, leaf, lanes, query)
-                                   : offer_scene(i, leaf, lanes, query);
+    offer(i, ray, leaf, lanes, query);
     if constexpr (kIsAny) {
       answers_[i] = std::uint8_t{query.found};
       return query.found;
@@ -136,24 +136,30 @@ class WideFloatTrace {
     }
   }
 
-  /// The exact test of lanes with the corners of the block, which are at hand.
-  void offer_stored(const Ray& ray, WideId leaf, std::uint32_t lanes, Q& query) {
+  /// The exact test of lanes; of triangles with the corners of the block where they are the
+  /// scene's, as they are at hand.
+  void offer(std::uint32_t i, const Ray& ray, WideId leaf, std::uint32_t lanes, Q& query) {
     const ExactRay exact(ray.org, ray.dir, prims_.scene().world_frame().bounds);
     const std::byte* at = tree_.at(leaf);
     const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
+    const bool is_exact = tree_.is_exact(at);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      const Hit blank = prims_.blank_hit(references[lane]);
-      if (offer_triangle(stored_corners(at, count, lane), exact, blank, query)) return;
+      const bool is_over = is_exact && is_triangle(at, count, lane)
+                               ? offer_triangle(stored_corners(at, count, lane), exact,
+                                                prims_.blank_hit(references[lane]), query)
+                               : visit(i, references[lane], query);
+      if (is_over) return;
     }
   }
 
-  /// The same with the things of the scene.
-  void offer_scene(std::uint32_t i, WideId leaf, std::uint32_t lanes, Q& query) {
-    const std::uint32_t* references = reference_row(tree_.at(leaf), lanes_of(leaf));
+  static bool is_triangle(const std::byte* leaf, std::uint32_t lanes, std::uint32_t lane) {
+    return !std::isnan(stored_corners(leaf, lanes, lane).a.x);
+  }
+
+  bool visit(std::uint32_t i, std::uint32_t reference, Q& query) {
     NoCounters uncounted;  // the kernel has counted the lanes
-    for (; lanes != 0; lanes &= lanes - 1)
-      if (prims_.visit(references[std::countr_zero(lanes)], prepared(i), query, uncounted)) return;
+    return prims_.visit(reference, prepared(i), query, uncounted);
   }
 
   /// Bounds around the frame's t of a hit; they stay where there is none.
