@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -63,6 +64,7 @@ class WideFloatTrace {
   static constexpr WideMode kMode = kIsAny ? WideMode::any : WideMode::closest;
   static constexpr bool kIsCounted = !std::is_same_v<C, NoCounters>;
   static constexpr std::size_t kNone = ~std::size_t{0};
+  static constexpr Vec3d kNoCorner = Vec3d::all(std::numeric_limits<double>::quiet_NaN());
 
   /// What the block that begins there reads first and writes, while the last one is traced. Of
   /// records of a ray all lines are asked for.
@@ -142,19 +144,16 @@ class WideFloatTrace {
     const ExactRay exact(ray.org, ray.dir, prims_.scene().world_frame().bounds);
     const std::byte* at = tree_.at(leaf);
     const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
-    const bool is_exact = tree_.is_exact(at);
+    TriangleVertices corners{kNoCorner, kNoCorner, kNoCorner};
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      const bool is_over = is_exact && is_triangle(at, count, lane)
-                               ? offer_triangle(stored_corners(at, count, lane), exact,
-                                                prims_.blank_hit(references[lane]), query)
-                               : visit(i, references[lane], query);
+      if (tree_.is_exact(at)) corners = stored_corners(at, count, lane);
+      const bool is_over =
+          std::isnan(corners.a.x)
+              ? visit(i, references[lane], query)
+              : offer_triangle(corners, exact, prims_.blank_hit(references[lane]), query);
       if (is_over) return;
     }
-  }
-
-  static bool is_triangle(const std::byte* leaf, std::uint32_t lanes, std::uint32_t lane) {
-    return !std::isnan(stored_corners(leaf, lanes, lane).a.x);
   }
 
   bool visit(std::uint32_t i, std::uint32_t reference, Q& query) {
