@@ -50,7 +50,7 @@ test_neon() {
   configure neon
   cmake --build --preset neon -j "$jobs" --target strahl_cli strahl_test_conformance
   rm -rf build/neon/test_results
-  GTEST_FILTER='*WideKernels*:*wide_bvh*' ctest --preset neon -R conformance
+  GTEST_FILTER='*WideKernels*:*WideCompact*:*wide_bvh*' ctest --preset neon -R conformance
   tested+=(build/neon)
 }
 
