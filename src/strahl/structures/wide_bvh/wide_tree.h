@@ -9,9 +9,9 @@
 //   Blocks of the compact layout, about half as large, are those of wide_compact.h.
 // Slots: a ray with sign bits s (bit a set where it runs down axis a) visits the children of a node
 //   in ascending order of slot XOR s (of slot XOR 2 s for W = 16), so slots are filled by position.
-// Numbers are those of the tree's frame (wide_frame.h). Where all things are triangles whose
-// corners
-//   are floats of the frame (has_exact_corners), the block holds the very corners of the scene.
+// Numbers are those of the tree's frame (wide_frame.h). Where the corners of all triangles are
+//   floats of the frame (has_exact_corners; other things may be among them), lanes of triangles
+//   hold the very corners of the scene, but in rounded blocks.
 // Lanes: a thing that is no triangle has NaN corners. Every comparison of the kernels is written so
 //   that NaN means "may be hit", so such a lane always goes to the exact test.
 // Invariants: boxes enclose the things below them, rounded outward; an empty slot's box is
