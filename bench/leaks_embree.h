@@ -3,6 +3,7 @@
 // All hits are collected as Embree documents it: a context filter that counts and rejects each one.
 #pragma once
 
+#include <apps/strahl/peer/embree_mesh.h>
 #include <bench/leak_cases.h>
 #include <memory>
 
@@ -19,18 +20,7 @@ class EmbreeScene {
     const int robust = is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
     rtcSetSceneFlags(scene_.get(),
                      static_cast<RTCSceneFlags>(robust | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<Vec3f*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(Vec3f), mesh.vertices.count));
-    for (std::size_t i = 0; i < mesh.vertices.count; ++i) vertices[i] = Vec3f(mesh.vertices[i]);
-    auto* corners = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), mesh.size()));
-    for (std::size_t i = 0; i < mesh.size(); ++i) {
-      const IndexView::Triple t = mesh.triangles[i];
-      for (const std::uint64_t v : {t.a, t.b, t.c}) *corners++ = static_cast<std::uint32_t>(v);
-    }
+    RTCGeometry geometry = peer::new_triangles(device_.get(), mesh, {});
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);

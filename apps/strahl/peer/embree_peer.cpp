@@ -1,5 +1,6 @@
 // The peer is Embree 3. Flushed subnormals and the choice of quality are what its manual recommends
 // for speed.
+#include <apps/strahl/peer/embree_mesh.h>
 #include <apps/strahl/peer/embree_rays.h>
 #include <apps/strahl/peer/peer.h>
 #include <atomic>
@@ -52,18 +53,7 @@ RTCIntersectContext context_of(PeerApi api) {
 /// One part of the scene, as it stands in the world.
 void add_geometry(RTCDevice device, RTCScene scene, const TriangleMesh& mesh,
                   const Affine& to_world, RTCBuildQuality quality) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<Vec3f*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.vertices.count));
-  for (std::size_t i = 0; i < mesh.vertices.count; ++i)
-    vertices[i] = Vec3f(to_world.point(mesh.vertices[i]));
-  auto* corners = static_cast<std::uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(std::uint32_t), mesh.size()));
-  for (std::size_t i = 0; i < mesh.size(); ++i) {
-    const IndexView::Triple t = mesh.triangles[i];
-    for (const std::uint64_t v : {t.a, t.b, t.c}) *corners++ = static_cast<std::uint32_t>(v);
-  }
+  RTCGeometry geometry = new_triangles(device, mesh, to_world);
   rtcSetGeometryBuildQuality(geometry, quality);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
