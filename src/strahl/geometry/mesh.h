@@ -26,10 +26,11 @@ struct VertexView {
 
   /// Vertex i, float32 promoted exactly. i < count.
   Vec3d operator[](std::size_t i) const {
-    const std::byte* p = data + i * stride;
+    const std::byte* p = at(i);
     if (is_double) return load<double>(p);
     return Vec3d(load<float>(p));
   }
+  const std::byte* at(std::size_t i) const { return data + i * stride; }
 
  private:
   template <class T>
@@ -51,10 +52,11 @@ struct IndexView {
     std::uint64_t a, b, c;
   };
   Triple operator[](std::size_t i) const {
-    const std::byte* p = data + i * stride;
+    const std::byte* p = at(i);
     if (is_64_bit) return load<std::uint64_t>(p);
     return load<std::uint32_t>(p);
   }
+  const std::byte* at(std::size_t i) const { return data + i * stride; }
 
  private:
   template <class T>

@@ -378,8 +378,24 @@ void Scene::bounds_from(std::uint32_t first, std::span<Aabb> boxes) const {
   }
 }
 
+void Scene::ask_for_triangles(std::span<const std::uint32_t> references) const {
+  const auto each = [&](const auto& ask) {
+    for (const std::uint32_t reference : references) {
+      const Part& part = part_of(reference);
+      const Geometry& g = geometries_[part.geometry];
+      if (g.kind == PrimitiveKind::triangle) ask(g.mesh, reference - part.first_reference);
+    }
+  };
+  each([](const TriangleMesh& mesh, std::size_t i) { __builtin_prefetch(mesh.triangles.at(i)); });
+  each([](const TriangleMesh& mesh, std::size_t i) {
+    const IndexView::Triple t = mesh.triangles[i];
+    for (const std::uint64_t corner : {t.a, t.b, t.c}) __builtin_prefetch(mesh.vertices.at(corner));
+  });
+}
+
 void Scene::triangles(std::span<const std::uint32_t> references,
                       TriangleVertices* triangles) const {
+  ask_for_triangles(references);
   const Vec3d nan = Vec3d::all(std::numeric_limits<double>::quiet_NaN());
   for (const std::uint32_t reference : references) {
     const Part& part = part_of(reference);

@@ -183,6 +183,8 @@ class Scene final : public PrimitiveSource {
   void check_extent() const;
   void widen_for_instances();
   void hash_instances();
+  /// Has the memory of many triangles on its way before the first is read.
+  void ask_for_triangles(std::span<const std::uint32_t> references) const;
 
   std::shared_ptr<const Content> content_;
   std::span<const Geometry> geometries_;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -101,14 +102,17 @@ class WideFloatTrace {
 
   /// The canonical t of candidates left whose corners are the scene's only.
   void settle_from_scene(WideSettled& settled, double* t) {
+    std::array<std::uint32_t, kWideBlock> references;
+    std::array<TriangleVertices, kWideBlock> triangles;
+    std::size_t count = 0;
+    for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
+      references[count++] = known_.reference[std::countr_zero(rest)];
+    prims_.scene().triangles(std::span(references).first(count), triangles.data());
     WideCorners corners;
     alignas(64) double found[kWideBlock];  // what is not left is written, too
-    for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
-      TriangleVertices triangle;
-      prims_.scene().triangle(known_.reference[i], triangle);
-      corners.put(i, triangle);
-    }
+    const TriangleVertices* triangle = triangles.data();
+    for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
+      corners.put(static_cast<std::uint32_t>(std::countr_zero(rest)), *triangle++);
     const std::uint64_t certain = kernel_.settle_given(rays_, corners, settled.left, found);
     settled.certain |= certain, settled.left &= ~certain;
     for (std::uint64_t rest = certain; rest != 0; rest &= rest - 1) {
