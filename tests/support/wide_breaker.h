@@ -13,7 +13,7 @@ class WideBvhBreaker {
  public:
   explicit WideBvhBreaker(WideBvh& bvh) : tree(bvh.tree_), report(bvh.report_) {}
 
-  std::byte* at(WideId id) { return tree.arena.data() + std::size_t{unit_of(id)} * kWideUnit; }
+  std::byte* at(WideId id) { return tree.at(id); }
   float* planes(WideId node, int row) {
     return reinterpret_cast<float*>(at(node)) + row * tree.width;
   }

@@ -103,9 +103,10 @@ struct BlockCorners {
 struct BlockSizes {
   std::size_t indexed, rounded;
 
-  /// @param spare units of 32 bytes that it may take beyond rounded to keep its very corners
+  /// @param spare units that it may take beyond rounded to keep its very corners
   std::size_t bytes(std::uint64_t spare) const {
-    return units(indexed) <= units(rounded) + spare ? indexed : rounded;
+    const auto size = [](std::size_t bytes) { return units(bytes, WideLayout::compact); };
+    return size(indexed) <= size(rounded) + spare ? indexed : rounded;
   }
 };
 BlockSizes compact_sizes(const BlockCorners& corners);

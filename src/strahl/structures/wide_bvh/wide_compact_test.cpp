@@ -105,8 +105,8 @@ TEST(WideCompactBlock, TellsZerosOfBothSignsApart) {
 }
 
 TEST(WideCompactBlock, RoundsThirtyThreeCornersWhateverMayBeSpared) {
-  EXPECT_FALSE(is_rounded(Block(fan(10, 0.1), 9).at()));  // 30 corners
-  EXPECT_TRUE(is_rounded(Block(fan(11, 0.1), 9).at()));
+  EXPECT_FALSE(is_rounded(Block(fan(10, 0.1), 18).at()));  // 30 corners
+  EXPECT_TRUE(is_rounded(Block(fan(11, 0.1), 18).at()));
   EXPECT_TRUE(is_rounded(Block(fan(10, 0.1), 0).at()));
 }
 

@@ -25,7 +25,7 @@ class Flight {
  public:
   explicit Flight(WideJob& job)
       : job_(job),
-        base_(job.tree.arena.data()),
+        places_(job.tree.places()),
         room_(wide_stack_room(W, job.tree.depth)),
         stacks_(job.room, reinterpret_cast<WideId*>(job.room + kWideBlock * room_)) {}
 
@@ -72,15 +72,15 @@ class Flight {
   }
 
   /// Into the list it belongs to; into none when it is at its end.
-  HWY_INLINE void go_to(std::uint32_t ray, WideId id, const std::byte* base, Lists& n) {
+  HWY_INLINE void go_to(std::uint32_t ray, WideId id, const WidePlaces& places, Lists& n) {
     nodes_[n.nodes] = leaves_[n.leaves] = place(ray, id);
     n.nodes += 1 - (id >> 31), n.leaves += id > kBottom;
-    prefetch<W>(base + std::size_t{unit_of(id)} * kWideUnit);
+    prefetch<W>(places.at(id));
   }
 
   void visit_nodes() {
     const WideRays& rays = job_.rays;
-    const std::byte* const base = base_;
+    const WidePlaces places = places_;
     WideStack<W> stacks = stacks_;
     const float* const upper = job_.answers.upper;
     const std::uint32_t count = at_nodes_;
@@ -88,14 +88,14 @@ class Flight {
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t ray = ray_of(nodes_[i]);
       const WideId id = id_of(nodes_[i]);
-      const std::byte* at = base + std::size_t{id} * kWideUnit;
+      const std::byte* at = places.node(id);
       typename NodeTest<W>::Hits hits;
       NodeTest<W>(rays, ray).test(at, hn::Set(D(), upper[ray]), hits);
       std::size_t top = top_[ray];
       const WideId next = stacks.template exchange<M != WideMode::any>(
           child_row(at, W), hits, rays.signs[ray] * (W / 8), top);
       top_[ray] = top;
-      go_to(ray, next, base, n);
+      go_to(ray, next, places, n);
     }
     at_nodes_ = n.nodes, at_leaves_ = n.leaves;
   }
@@ -106,7 +106,7 @@ class Flight {
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t ray = ray_of(leaves_[i]);
       const WideId id = id_of(leaves_[i]);
-      const std::byte* at = base_ + std::size_t{unit_of(id)} * kWideUnit;
+      const std::byte* at = places_.block(id);
       const BlockView block = view<W>(at, lanes_of(id), expanded_);
       const LeafTest<W> leaf_test(job_.rays, ray);
       typename LeafTest<W>::Values values;
@@ -119,7 +119,7 @@ class Flight {
         }
         if (M != WideMode::any) drop_behind(ray, upper);
       }
-      go_to(ray, stacks_.at(--top_[ray]), base_, n);
+      go_to(ray, stacks_.at(--top_[ray]), places_, n);
     }
     at_nodes_ = n.nodes, at_leaves_ = n.leaves;
   }
@@ -133,7 +133,7 @@ class Flight {
   }
 
   WideJob& job_;
-  const std::byte* base_;
+  WidePlaces places_;
   std::size_t room_;
   WideStack<W> stacks_;  ///< of all rays, one behind the other
   std::uint64_t ended_ = 0;

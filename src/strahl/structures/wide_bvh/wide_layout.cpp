@@ -15,9 +15,9 @@ constexpr std::size_t kReportReferences = 2048;  // and do not report
 constexpr auto kMaxWidth = static_cast<std::size_t>(CollapseRules::kMaxWidth);
 
 /// What a compact tree may take per thing for the sake of exact corners, and how many units it
-/// may spend per block: most blocks need one, few with many triangles five.
+/// may spend per block: most blocks need two, few with many triangles ten.
 constexpr std::uint64_t kCompactBytes = 36;
-constexpr std::uint32_t kMostSpare = 5;
+constexpr std::uint32_t kMostSpare = 10;
 
 /// What is known of a block once it has been looked at, in the place of a subtree's units.
 struct BlockPlan {
@@ -47,9 +47,12 @@ class Layout {
     Extent all = measure(0);
     if (out_.layout == WideLayout::compact) all = spend_spare(all);
     if (all.units > kWideMaxUnits)
-      throw Error(ErrorCode::resource, "more than 4 GiB of nodes and blocks", "wide_bvh");
+      throw Error(ErrorCode::resource,
+                  out_.layout == WideLayout::full ? "more than 4 GiB of nodes and blocks"
+                                                  : "more than 2 GiB of nodes and blocks",
+                  "wide_bvh");
     total_units_ = all.units;
-    const std::uint64_t bytes = total_units_ * kWideUnit + kWideSlack;
+    const std::uint64_t bytes = bytes_of(total_units_) + kWideSlack;
     context_.require_memory(bytes, "wide_bvh");
     out_.arena = WideArena(bytes);
     if (collapse_.is_block(0))
@@ -84,12 +87,16 @@ class Layout {
     return children;
   }
 
-  /// Nodes begin with a cache line. Compact ones of 224 bytes need not: they fill four lines
-  /// anyway.
+  std::uint64_t bytes_of(std::uint64_t count) const { return count << unit_shift(out_.layout); }
+  std::uint64_t units(std::size_t bytes) const { return strahl::units(bytes, out_.layout); }
+
+  /// Nodes begin with a cache line. Compact ones of 224 bytes may begin in the middle of one: they
+  /// fill four lines anyway.
   template <class Count>
   Count aligned(Count unit) const {
-    if (out_.layout == WideLayout::compact && out_.width == 8) return unit;
-    return (unit + 1) / 2 * 2;
+    const bool may_straddle = out_.layout == WideLayout::compact && out_.width == 8;
+    const auto mask = static_cast<Count>(units(may_straddle ? 32 : 64) - 1);
+    return (unit + mask) & ~mask;
   }
 
   /// Calls visit(i) for the children of a node, at once where the node is large.
@@ -138,7 +145,7 @@ class Layout {
 
   /// As many units per block as kCompactBytes per thing allow.
   Extent spend_spare(Extent all) {
-    const std::uint64_t allowed = kCompactBytes * source_.size() / kWideUnit;
+    const std::uint64_t allowed = units(kCompactBytes * source_.size());
     while (spare_ < kMostSpare) {
       ++spare_;
       const Extent more = measure(0);
@@ -152,7 +159,7 @@ class Layout {
     return all;
   }
 
-  std::byte* at(std::uint32_t unit) { return out_.arena.data() + std::size_t{unit} * kWideUnit; }
+  std::byte* at(std::uint32_t unit) { return out_.arena.data() + bytes_of(unit); }
 
   /// References of a block, ascending, each once: parts of one primitive may meet again.
   std::span<const std::uint32_t> block_references(std::uint32_t node, Lanes& room) const {
@@ -170,7 +177,7 @@ class Layout {
     std::byte* block = at(unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
-    strahl::write_block(block, references, out_, source_, block_units(node) * kWideUnit);
+    strahl::write_block(block, references, out_, source_, bytes_of(block_units(node)));
     return kWideLeaf | unit << 4 | (lanes - 1);
   }
   std::uint32_t block_units(std::uint32_t node) const {
@@ -199,11 +206,11 @@ class Layout {
     }
     for (std::size_t i = 0; i < inner_count; ++i) {
       next = aligned(next);
-      ids[slots[inner[i]]] = next;
+      ids[slots[inner[i]]] = next >> finer_ << 4;
       next += units_[children.node[inner[i]]];
     }
     each_child(node, inner_count, [&](std::size_t i) {
-      write_node(children.node[inner[i]], ids[slots[inner[i]]], false);
+      write_node(children.node[inner[i]], ids[slots[inner[i]]] >> 4 << finer_, false);
     });
   }
 
@@ -230,6 +237,8 @@ class Layout {
   BuildReport& report_;
   std::uint64_t total_units_ = 0;
   std::uint32_t spare_ = 0;
+  const std::uint32_t finer_ =
+      kNodeShift - unit_shift(out_.layout);  ///< ids of nodes count coarser
   /// Per node of the tree that becomes a wide one: those of its subtree, or the plan of a block.
   std::vector<std::uint32_t> units_;
 };

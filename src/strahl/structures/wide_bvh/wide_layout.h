@@ -18,7 +18,7 @@ void assign_slots(std::span<const Vec3d> centers, const Vec3d& middle, int width
 /// Writes nodes depth first, each followed by its blocks and then its inner children. Subtrees are
 /// measured first, so that they can be written at once; the result does not depend on threads. Sets
 /// nodes, leaves, references, depth and bytes of the report.
-/// Throws Error{resource} above the memory limit or 4 GiB, Error{cancelled}.
+/// Throws Error{resource} above the memory limit or 4 GiB (compact: 2), Error{cancelled}.
 /// @param box_frame of the tree's boxes into the wide tree's frame: that itself, or none where they
 /// are in it
 /// @param empty a tree that says width, layout, frame and whether corners are exact

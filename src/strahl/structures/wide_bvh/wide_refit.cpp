@@ -62,7 +62,6 @@ class Fitter {
     double cost = 0.0;
   };
 
-  std::byte* at(WideId id) { return tree_.arena.data() + std::size_t{unit_of(id)} * kWideUnit; }
   double share(const Aabb& box) const {
     return sah_share(box.half_area(), things_.whole.half_area());
   }
@@ -70,13 +69,13 @@ class Fitter {
   Fitted fit(WideId id, int depth) { return is_leaf(id) ? fit_block(id) : fit_node(id, depth); }
 
   /// Bytes of a block up to the next one.
-  static std::size_t room(const std::byte* block, std::uint32_t lanes) {
+  std::size_t room(const std::byte* block, std::uint32_t lanes) const {
     const std::size_t bytes = is_compact(block) ? compact_bytes(block, lanes) : leaf_bytes(lanes);
-    return units(bytes) * kWideUnit;
+    return units(bytes, tree_.layout) << unit_shift(tree_.layout);
   }
 
   Fitted fit_block(WideId id) {
-    std::byte* block = at(id);
+    std::byte* block = tree_.at(id);
     const std::uint32_t lanes = lanes_of(id);
     const std::span references(reference_row(block, lanes), lanes);
     Fitted fitted;
@@ -87,7 +86,7 @@ class Fitter {
   }
 
   Fitted fit_node(WideId id, int depth) {
-    std::byte* node = at(id);
+    std::byte* node = tree_.at(id);
     std::array<Fitted, CollapseRules::kMaxWidth> children;
     std::array<int, CollapseRules::kMaxWidth> slots;
     std::size_t used = 0;

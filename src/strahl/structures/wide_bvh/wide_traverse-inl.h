@@ -125,11 +125,11 @@ HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<
   const NodeTest<W> node_test(job.rays, ray);
   const auto upper = hn::Set(typename WideLanes<W>::D(), job.answers.upper[ray]);
   const std::uint32_t order = job.rays.signs[ray] * (W / 8);
-  const std::byte* const base = job.tree.arena.data();
+  const WidePlaces places = job.tree.places();
   std::size_t waiting = waiting_out;
   while (!is_leaf(id)) {
     if (kCounts) ++job.counts.nodes, job.counts.boxes += W;
-    const std::byte* at = base + std::size_t{id} * kWideUnit;
+    const std::byte* at = places.node(id);
     typename NodeTest<W>::Hits hits;
     node_test.test(at, upper, hits);
     if (hits.bits != 0) {
@@ -147,12 +147,12 @@ HWY_INLINE WideId descend(WideJob& job, std::uint32_t ray, WideId id, WideStack<
 template <int W, WideMode M, bool kCounts>
 HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stack) {
   using L = WideLanes<W>;
-  const std::byte* const base = job.tree.arena.data();
+  const WidePlaces places = job.tree.places();
   const float& bound = job.answers.upper[ray];
   std::size_t waiting = 0;
   WideId id = job.tree.root;
   while ((id = descend<W, M, kCounts>(job, ray, id, stack, waiting)) != kNoNode) {
-    const std::byte* at = base + std::size_t{unit_of(id)} * kWideUnit;
+    const std::byte* at = places.block(id);
     const std::uint32_t lanes = lanes_of(id);
     if (kCounts) ++job.counts.leaves, job.counts.lanes += lanes;
     ExpandedBlock<W> room;
@@ -171,7 +171,7 @@ HWY_INLINE void traverse_one(WideJob& job, std::uint32_t ray, WideStack<W>& stac
     }
     if (waiting == 0) return;
     id = stack.at(--waiting);
-    if (waiting > 0) prefetch<W>(base + std::size_t{unit_of(stack.at(waiting - 1))} * kWideUnit);
+    if (waiting > 0) prefetch<W>(places.at(stack.at(waiting - 1)));
   }
 }
 

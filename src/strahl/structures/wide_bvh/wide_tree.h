@@ -1,12 +1,13 @@
 // structures/wide_bvh/wide_tree.h - nodes and leaf blocks of the wide tree, as the kernels read
 // them.
 //
-// Layout: one arena of 32-byte units. A wide node of W = 8 or 16 slots is six rows of W floats (low
-//   x, y, z, then high x, y, z) and a row of W child ids, 28 W bytes. A leaf block of n triangles
-//   is a LeafBound, nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n
-//   references, 16 + 40 n bytes. Rows are read with full vectors from their unaligned beginning;
-//   lanes beyond n are masked out, and the arena ends in slack for them.
-//   Blocks of the compact layout, about half as large, are those of wide_compact.h.
+// Layout: one arena. A wide node of W = 8 or 16 slots is six rows of W floats (low x, y, z, then
+//   high x, y, z) and a row of W child ids, 28 W bytes. A leaf block of n triangles is a LeafBound,
+//   nine rows of n floats (corner a's x, y, z, then b's and c's) and a row of n references,
+//   16 + 40 n bytes. Rows are read with full vectors from their unaligned beginning; lanes beyond n
+//   are masked out, and the arena ends in slack for them. Nodes and blocks begin with a unit of 32
+//   bytes. Blocks of the compact layout, about half as large, are those of wide_compact.h and begin
+//   with a unit of 16.
 // Slots: a ray with sign bits s (bit a set where it runs down axis a) visits the children of a node
 //   in ascending order of slot XOR s (of slot XOR 2 s for W = 16), so slots are filled by position.
 // Numbers are those of the tree's frame (wide_frame.h). Where the corners of all triangles are
@@ -29,20 +30,19 @@
 
 namespace strahl {
 
-/// Bits 31: leaf. Inner: the other bits are the node's unit. Leaf: bits 4..30 are the block's unit,
-/// bits 0..3 the number of lanes less one.
+/// Bit 31: leaf. Bits 4..30: its first unit. Bits 0..3: the number of lanes of a leaf less one, 0
+/// of a node, which lies at twice its id.
 using WideId = std::uint32_t;
 
 inline constexpr WideId kWideLeaf = 0x80000000u;
-inline constexpr std::size_t kWideUnit = 32;
-inline constexpr std::uint64_t kWideMaxUnits = std::uint64_t{1} << 27;  ///< 4 GiB
+inline constexpr std::uint64_t kWideMaxUnits = std::uint64_t{1} << 27;  ///< 4 GiB, compact: 2
 inline constexpr std::uint32_t kWideMaxLanes = 16;
 inline constexpr int kWideMaxDepth = 64;        ///< inner nodes on a path
 inline constexpr std::size_t kWideSlack = 128;  ///< bytes that may be read beyond the last block
 
 constexpr bool is_leaf(WideId id) { return (id & kWideLeaf) != 0; }
-/// Without a branch.
-constexpr std::uint32_t unit_of(WideId id) { return (id & ~kWideLeaf) >> (id >> 31 << 2); }
+/// The first unit, times 16.
+constexpr std::uint32_t place_of(WideId id) { return id & 0x7ffffff0u; }
 constexpr std::uint32_t lanes_of(WideId leaf) { return (leaf & 15u) + 1; }
 
 /// Error bounds of the hit filter for one block; see wide_filter.h.
@@ -60,7 +60,13 @@ enum class WideLayout { full, compact };
 constexpr std::size_t node_bytes(int width) { return 28u * static_cast<std::size_t>(width); }
 /// Of a full block.
 constexpr std::size_t leaf_bytes(std::size_t lanes) { return sizeof(LeafBound) + 40 * lanes; }
-constexpr std::uint64_t units(std::size_t bytes) { return (bytes + kWideUnit - 1) / kWideUnit; }
+/// log2 of the bytes of a unit, of blocks and of nodes.
+constexpr std::uint32_t unit_shift(WideLayout layout) { return layout == WideLayout::full ? 5 : 4; }
+inline constexpr std::uint32_t kNodeShift = 5;
+constexpr std::uint64_t units(std::size_t bytes, WideLayout layout) {
+  const std::uint32_t shift = unit_shift(layout);
+  return (bytes + (std::size_t{1} << shift) - 1) >> shift;
+}
 
 /// Row r of a node: low x, y, z, high x, y, z.
 inline const float* plane_row(const std::byte* node, int width, int row) {
@@ -116,6 +122,21 @@ constexpr std::size_t wide_stack_room(int width, std::size_t depth) {
   return (2 + depth * (w - 1) + 2 * w + 7) / 8 * 8;
 }
 
+/// Where nodes and blocks lie.
+struct WidePlaces {
+  const std::byte* base;
+  std::uint32_t finer;  ///< 1 where units of blocks are half of those of nodes
+
+  const std::byte* node(WideId id) const { return base + 2 * std::size_t{id}; }
+  const std::byte* block(WideId id) const {
+    return base + (std::size_t{place_of(id)} << (1 - finer));
+  }
+  /// Of either, without a branch.
+  const std::byte* at(WideId id) const {
+    return base + (std::size_t{place_of(id)} << (1 - (id >> 31 & finer)));
+  }
+};
+
 /// All that a kernel needs of a tree. Empty when the arena is.
 struct WideTree {
   WideArena arena;
@@ -127,9 +148,9 @@ struct WideTree {
   WideFrame frame;
 
   bool is_empty() const { return arena.size() == 0; }
-  const std::byte* at(WideId id) const {
-    return arena.data() + std::size_t{unit_of(id)} * kWideUnit;
-  }
+  WidePlaces places() const { return {arena.data(), kNodeShift - unit_shift(layout)}; }
+  const std::byte* at(WideId id) const { return places().at(id); }
+  std::byte* at(WideId id) { return const_cast<std::byte*>(places().at(id)); }
   /// Whether a block holds the very corners of the scene.
   bool is_exact(const std::byte* leaf) const { return has_exact_corners && !is_rounded(leaf); }
 };

@@ -55,11 +55,10 @@ class WideBvhChecker {
  private:
   void check(WideId id, const StoredBox& box, std::uint64_t depth) {
     ++nodes_;
-    demand(std::size_t{unit_of(id)} * kWideUnit + kWideSlack < tree_.arena.size(),
-           "an id is out of range");
+    const auto begin = static_cast<std::size_t>(tree_.at(id) - tree_.arena.data());
+    demand(begin + kWideSlack < tree_.arena.size(), "an id is out of range");
     const std::size_t bytes = is_leaf(id) ? bytes_of_block(id) : node_bytes(tree_.width);
-    demand(std::size_t{unit_of(id)} * kWideUnit + bytes + kWideSlack <= tree_.arena.size(),
-           "an id is out of range");
+    demand(begin + bytes + kWideSlack <= tree_.arena.size(), "an id is out of range");
     demand(depth <= static_cast<std::uint64_t>(kWideMaxDepth), "a node is too deep");
     if (is_leaf(id))
       check_block(id, box, depth);
