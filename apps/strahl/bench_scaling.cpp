@@ -33,8 +33,8 @@ double median_build(Make make, int repeat) {
 template <class Run>
 Json ray_json(const RaySet& set, const char* api, const char* interface, Run run, int repeat) {
   run();
-  std::vector<double> seconds;
-  for (int i = 0; i < repeat; ++i) seconds.push_back(run());
+  std::vector<double> seconds(static_cast<std::size_t>(repeat));
+  for (double& each : seconds) each = run();
   return {{"workload", name_of(set.kind)},
           {"api", api},
           {"interface", interface},

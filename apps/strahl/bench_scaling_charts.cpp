@@ -17,7 +17,8 @@ using SeriesList = std::vector<Series>;
 Points& points_of(SeriesList& list, const std::string& label) {
   for (Series& series : list)
     if (series.label == label) return series.points;
-  return list.emplace_back(label).points;
+  list.push_back({label, {}});
+  return list.back().points;
 }
 
 Chart chart_of(const std::string& name, const std::string& title, const std::string& y,

@@ -68,10 +68,7 @@ void describe(CLI::App& app) {
   app.get_formatter()->column_width(34);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  catch_interrupts();
+int run_command(int argc, char** argv) {
   CLI::App app;
   describe(app);
   bool version = false, verbose = false;
@@ -97,5 +94,12 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{}", app.help());
     return kExitUsage;
   }
-  return guarded(run);
+  return run();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  catch_interrupts();
+  return guarded([&] { return run_command(argc, argv); });
 }

@@ -30,15 +30,15 @@ struct Packets8 {
   using Ray = RTCRay8;
   using RayHit = RTCRayHit8;
   static constexpr std::size_t kRays = 8;
-  static constexpr auto intersect = &rtcIntersect8;
-  static constexpr auto occluded = &rtcOccluded8;
+  static constexpr auto kIntersect = &rtcIntersect8;
+  static constexpr auto kOccluded = &rtcOccluded8;
 };
 struct Packets16 {
   using Ray = RTCRay16;
   using RayHit = RTCRayHit16;
   static constexpr std::size_t kRays = 16;
-  static constexpr auto intersect = &rtcIntersect16;
-  static constexpr auto occluded = &rtcOccluded16;
+  static constexpr auto kIntersect = &rtcIntersect16;
+  static constexpr auto kOccluded = &rtcOccluded16;
 };
 
 RTCIntersectContext context_of(PeerApi api) {
@@ -159,7 +159,7 @@ void EmbreePeer::closest_packets(RTCIntersectContext& context, std::span<const F
     write_packet(rays.subspan(i, count), r.ray, valid);
     std::memset(r.hit.geomID, 0xff, sizeof r.hit.geomID);
     std::memset(r.hit.primID, 0xff, sizeof r.hit.primID);
-    Api::intersect(valid, scene_.get(), &context, &r);
+    Api::kIntersect(valid, scene_.get(), &context, &r);
     for (std::size_t k = 0; k < count; ++k)
       hits[i + k] = {r.ray.tfar[k], r.hit.primID[k], r.hit.u[k], r.hit.v[k]};
   }
@@ -205,7 +205,7 @@ void EmbreePeer::any_packets(RTCIntersectContext& context, std::span<const Float
   for (std::size_t i = 0; i < rays.size(); i += Api::kRays) {
     const std::size_t count = std::min(Api::kRays, rays.size() - i);
     write_packet(rays.subspan(i, count), r, valid);
-    Api::occluded(valid, scene_.get(), &context, &r);
+    Api::kOccluded(valid, scene_.get(), &context, &r);
     for (std::size_t k = 0; k < count; ++k) occluded[i + k] = r.tfar[k] < 0.0f;
   }
 }

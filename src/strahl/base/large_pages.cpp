@@ -12,9 +12,10 @@ void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_
 #ifdef __linux__
   if (bytes < kLargePage) return;
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = (reinterpret_cast<std::uintptr_t>(data) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes) / page * page;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const auto at = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t begin = (at + page - 1) / page * page, end = (at + bytes) / page * page;
+  if (begin < end)
+    madvise(static_cast<std::byte*>(data) + (begin - at), end - begin, MADV_HUGEPAGE);
 #endif
 }
 

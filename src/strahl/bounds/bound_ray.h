@@ -35,15 +35,15 @@ struct BoundRay {
   }
 };
 
-/// A ray's line along a normal n: A + t B, with the sign of B and slack s applied.
+/// A ray's line along a normal n: a + t b, with the sign of b and slack s applied.
 struct SlabRay {
-  double low_org, high_org;  ///< A + s, A - s: subtracted from lower and from upper planes
-  double inv;                ///< 1 / B; +inf where B is 0 or -0
-  bool negative;             ///< B < 0
+  double low_org, high_org;  ///< a + s, a - s: subtracted from lower and from upper planes
+  double inv;                ///< 1 / b; +inf where b is 0 or -0
+  bool negative;             ///< b < 0
 
   SlabRay() = default;
-  SlabRay(double A, double B, double s)
-      : low_org(A + s), high_org(A - s), inv(B == 0.0 ? Aabb::kInf : 1.0 / B), negative(B < 0.0) {}
+  SlabRay(double a, double b, double s)
+      : low_org(a + s), high_org(a - s), inv(b == 0.0 ? Aabb::kInf : 1.0 / b), negative(b < 0.0) {}
   /// @param norm at least |n|_1
   SlabRay(const BoundRay& ray, const Vec3d& n, double norm)
       : SlabRay(dot(n, ray.org), dot(n, ray.dir), norm * ray.slack) {}

@@ -16,6 +16,7 @@ constexpr double kNotWorthCutting = 1e-4;
 std::vector<Vec3d> flat_normals(const std::vector<Vec3d>& points) {
   const Basis basis(principal_axes(points)[2]);
   std::vector<Vec2d> flat;
+  flat.reserve(points.size());
   for (const Vec3d& p : points) flat.push_back({dot(basis.u, p), dot(basis.v, p)});
   const std::vector<Vec2d> outline = convex_polygon(std::move(flat));
   std::vector<Vec3d> normals{basis.w, -basis.w};
@@ -47,6 +48,7 @@ std::vector<Vec3d> candidate_normals(const FitCloud& cloud) {
 std::vector<Vec3d> deepest_cuts(const FitCloud& cloud, const std::vector<Vec3d>& candidates,
                                 std::size_t most) {
   std::vector<double> offset;
+  offset.reserve(candidates.size());
   for (const Vec3d& n : candidates) offset.push_back(cloud.extent(n).second);
   const auto side = [&](int axis) {
     Vec3d n;

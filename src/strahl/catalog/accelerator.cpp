@@ -138,6 +138,7 @@ void Accelerator::require_pose(const Scene& moved) const {
               spec_);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): an override keeps it
 void Accelerator::update(std::shared_ptr<const Scene>, const BuildContext&) {
   throw Error(ErrorCode::unsupported, "this structure cannot move; two_level, bvh and wide_bvh can",
               spec_);

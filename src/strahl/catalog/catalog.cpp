@@ -35,12 +35,12 @@ const StructureEntry& find_entry(const Spec& parsed, std::string_view spec) {
 }  // namespace
 
 std::span<const StructureEntry> all_structures() {
-  static const StructureEntry entries[] = {
+  static const StructureEntry kEntries[] = {
 #define STRAHL_STRUCTURE(id, type) with_level(id##_entry(), &id##_level),
 #include <strahl/catalog/structures.def>
 #undef STRAHL_STRUCTURE
   };
-  return entries;
+  return kEntries;
 }
 
 std::unique_ptr<Accelerator> build(std::shared_ptr<const Scene> scene, std::string_view spec,

@@ -156,6 +156,7 @@ class Trials {
     }
     std::vector<std::string> some;
     const std::vector<std::size_t> promising = promising_for(options.rays);
+    some.reserve(promising.size());
     for (const std::size_t i : promising) some.push_back(specs[i]);
     const std::vector<Taken> taken = Trial(large_, some, context).run(options);
     for (std::size_t k = 0; k < promising.size(); ++k) at_large_[promising[k]] = taken[k];

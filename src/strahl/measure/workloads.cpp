@@ -58,8 +58,8 @@ std::vector<Ray> primary_rays(const WorkloadOptions& options) {
   for (int tile = 0; tile < tiles * tiles; ++tile)
     for (int i = 0; i < kTile * kTile; ++i) {
       const auto [column, row] = in_tile(i);
-      const Ray ray =
-          camera.through(tile % tiles * kTile + column + 0.5, tile / tiles * kTile + row + 0.5);
+      const int x = tile % tiles * kTile + column, y = tile / tiles * kTile + row;
+      const Ray ray = camera.through(x + 0.5, y + 0.5);
       rays.push_back(float_ray(ray.org, ray.dir));
     }
   return rays;

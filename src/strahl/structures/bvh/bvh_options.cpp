@@ -1,3 +1,4 @@
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@ namespace {
 
 std::vector<std::pair<std::string, BvhVolume>> volume_words() {
   std::vector<std::pair<std::string, BvhVolume>> words;
+  words.reserve(std::size(kBoundingVolumes) + 1);
   for (const BoundingVolumeInfo& info : kBoundingVolumes)
     words.emplace_back(info.name, static_cast<BvhVolume>(info.kind));
   words.emplace_back("auto", BvhVolume::automatic);

@@ -85,7 +85,7 @@ BuildReport RunLevel::report() const {
   BuildReport report = stacked(top, below);
   report.bytes += starts_.capacity() * sizeof(std::uint32_t) +
                   bottoms_.capacity() * sizeof(bottoms_[0]) +
-                  level_of_.capacity() * sizeof(const Level*);
+                  level_of_.capacity() * sizeof(level_of_[0]);
   // A run met by the top costs its bottom; on average, as boxes of runs are not kept.
   double cost = 0.0;
   for (const std::unique_ptr<Level>& bottom : bottoms_) cost += bottom->report().sah_cost;

@@ -70,10 +70,10 @@ constexpr std::uint64_t units(std::size_t bytes, WideLayout layout) {
 
 /// Row r of a node: low x, y, z, high x, y, z.
 inline const float* plane_row(const std::byte* node, int width, int row) {
-  return reinterpret_cast<const float*>(node) + row * width;
+  return reinterpret_cast<const float*>(node) + std::ptrdiff_t{row} * width;
 }
 inline const WideId* child_row(const std::byte* node, int width) {
-  return reinterpret_cast<const WideId*>(node) + 6 * width;
+  return reinterpret_cast<const WideId*>(node) + std::ptrdiff_t{6} * width;
 }
 inline std::uint32_t leaf_word(const std::byte* leaf) {
   std::uint32_t word;
@@ -85,12 +85,12 @@ inline bool is_compact(const std::byte* leaf) { return leaf_word(leaf) != 0; }
 inline bool is_rounded(const std::byte* leaf) { return (leaf_word(leaf) & 0xffu) != 0; }
 /// Row r of a full block: a.x, a.y, a.z, b.x, ...
 inline const float* corner_row(const std::byte* leaf, std::uint32_t lanes, std::uint32_t row) {
-  return reinterpret_cast<const float*>(leaf + sizeof(LeafBound)) + row * lanes;
+  return reinterpret_cast<const float*>(leaf + sizeof(LeafBound)) + std::size_t{row} * lanes;
 }
 inline const std::uint32_t* reference_row(const std::byte* leaf, std::uint32_t lanes,
                                           WideLayout layout) {
   const auto* behind_head = reinterpret_cast<const std::uint32_t*>(leaf + sizeof(LeafBound));
-  return layout == WideLayout::full ? behind_head + 9 * lanes : behind_head;
+  return layout == WideLayout::full ? behind_head + std::size_t{9} * lanes : behind_head;
 }
 /// Of a block that is written.
 inline const std::uint32_t* reference_row(const std::byte* leaf, std::uint32_t lanes) {
