@@ -9,6 +9,7 @@
 
 #include <strahl/base/rng.h>
 #include <strahl/geometry/scene.h>
+#include <strahl/structures/wide_bvh/wide_any_order.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
@@ -52,9 +53,10 @@ std::uint64_t hash_of(const WideBvh& bvh) {
 }
 
 /// What validate() says of a tree with a planted fault; empty when it says nothing.
-std::string verdict(const std::function<void(WideBvhBreaker&)>& plant) {
+std::string verdict(const std::function<void(WideBvhBreaker&)>& plant,
+                    const WideBvhOptions& options = with(WideQuality::balanced)) {
   const Scene scene(random_triangles(300, 0.1, 1));
-  WideBvh bvh(scene, with(WideQuality::balanced), {});
+  WideBvh bvh(scene, options, {});
   EXPECT_NO_THROW(bvh.validate(scene));
   WideBvhBreaker breaker(bvh);
   plant(breaker);
@@ -76,6 +78,18 @@ TEST(WideBvh, ValidateSeesBrokenBoxes) {
               b.planes(b.tree.root, 0)[b.used_slot(b.tree.root)] = std::nanf("");
             }).find("wide_bvh: "),
             0u);
+}
+
+TEST(WideBvh, ValidateSeesAnOrderThatLeavesOutASlot) {
+  WideBvhOptions options;
+  options.width = WideWidth::sixteen;
+  EXPECT_EQ(verdict(
+                [](WideBvhBreaker& b) {
+                  float* planes = b.planes(b.tree.root, 0);
+                  planes[0] = with_ordered_slot(planes[0], ordered_slot(planes[1]));
+                },
+                options),
+            "wide_bvh: the order of any hit leaves out a slot");
 }
 
 TEST(WideBvh, ValidateSeesBrokenBlocks) {

@@ -75,7 +75,7 @@ struct Block {
     for (std::uint32_t i = 0; i < lanes; ++i) references.push_back(i);
     const WideTree tree = compact_tree(things);
     const std::size_t size = block_sizes(references, tree, things).bytes(spare);
-    EXPECT_TRUE(write_block(bytes.data(), references, tree, things, size));
+    EXPECT_TRUE(write_block(bytes.data(), references, tree, things, size).fits);
     EXPECT_EQ(compact_bytes(bytes.data(), lanes), size);
   }
   const std::byte* at() const { return bytes.data(); }

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include <strahl/build/sah.h>
 #include <strahl/build/sort_few.h>
 #include <strahl/structures/wide_bvh/wide_layout.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
@@ -56,7 +58,7 @@ class Layout {
     context_.require_memory(bytes, "wide_bvh");
     out_.arena = WideArena(bytes);
     if (collapse_.is_block(0))
-      out_.root = write_block(0, 0);
+      out_.root = write_block(0, 0).id;
     else
       write_node(0, out_.root = 0, true);
     report_.nodes = all.nodes, report_.leaves = all.leaves, report_.references = all.references;
@@ -79,6 +81,11 @@ class Layout {
       units += child.units, nodes += child.nodes, leaves += child.leaves;
       references += child.references, depth = std::max(depth, child.depth + 1);
     }
+  };
+
+  struct Block {
+    WideId id;
+    Blocking blocking;
   };
 
   Children children_of(std::uint32_t node) const {
@@ -170,30 +177,39 @@ class Layout {
     return {room.begin(), std::unique(room.begin(), end)};
   }
 
-  WideId write_block(std::uint32_t node, std::uint32_t unit) {
+  Block write_block(std::uint32_t node, std::uint32_t unit) {
     Lanes room;
     const std::span<const std::uint32_t> references = block_references(node, room);
     const auto lanes = static_cast<std::uint32_t>(references.size());
     std::byte* block = at(unit);
     std::copy(references.begin(), references.end(),
               const_cast<std::uint32_t*>(reference_row(block, lanes, out_.layout)));
-    strahl::write_block(block, references, out_, source_, bytes_of(block_units(node)));
-    return kWideLeaf | unit << 4 | (lanes - 1);
+    const WrittenBlock written =
+        strahl::write_block(block, references, out_, source_, bytes_of(block_units(node)));
+    Blocking blocking{written.triangle_area, half_area_of(node),
+                      rules_.leaf_cost + rules_.primitive_cost * lanes};
+    if (std::isnan(blocking.triangle_area)) blocking.triangle_area = blocking.half_area;
+    return {kWideLeaf | unit << 4 | (lanes - 1), blocking};
   }
   std::uint32_t block_units(std::uint32_t node) const {
     return BlockPlan::of(units_[node]).units(spare_);
   }
 
-  void write_node(std::uint32_t node, std::uint32_t unit, bool is_root) {
+  /// In the tree's frame.
+  double half_area_of(std::uint32_t node) const {
+    return tree_.nodes[node].box.half_area() * box_frame_.scale * box_frame_.scale;
+  }
+
+  Blocking write_node(std::uint32_t node, std::uint32_t unit, bool is_root) {
     if (is_root || collapse_.references(node).size() >= kReportReferences)
       context_.check(static_cast<double>(unit) / static_cast<double>(total_units_), "laying out");
     const Children children = children_of(node);
     std::byte* const to = at(unit);
     std::array<int, kMaxWidth> slots;
     place(node, children, slots);
-    write_boxes(to, children, slots);
     auto* ids = const_cast<WideId*>(child_row(to, out_.width));
-    std::array<std::uint32_t, kMaxWidth> inner;  // children that are nodes
+    std::array<Blocking, kOrderedWidth> blocking;  // by slot
+    std::array<std::uint32_t, kMaxWidth> inner;    // children that are nodes
     std::size_t inner_count = 0;
     std::uint32_t next = unit + static_cast<std::uint32_t>(units(node_bytes(out_.width)));
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -201,7 +217,8 @@ class Layout {
         inner[inner_count++] = static_cast<std::uint32_t>(i);
         continue;
       }
-      ids[slots[i]] = write_block(children.node[i], next);
+      const Block block = write_block(children.node[i], next);
+      ids[slots[i]] = block.id, blocking[static_cast<std::size_t>(slots[i])] = block.blocking;
       next += block_units(children.node[i]);
     }
     for (std::size_t i = 0; i < inner_count; ++i) {
@@ -210,8 +227,22 @@ class Layout {
       next += units_[children.node[inner[i]]];
     }
     each_child(node, inner_count, [&](std::size_t i) {
-      write_node(children.node[inner[i]], ids[slots[inner[i]]] >> 4 << finer_, false);
+      const int slot = slots[inner[i]];
+      blocking[static_cast<std::size_t>(slot)] =
+          write_node(children.node[inner[i]], ids[slot] >> 4 << finer_, false);
     });
+    write_boxes(to, children, slots, blocking);
+    return blocking_of(node, blocking);
+  }
+
+  Blocking blocking_of(std::uint32_t node, std::span<const Blocking> children) const {
+    Blocking all{0.0, half_area_of(node), rules_.node_cost};
+    for (const Blocking& child : children)
+      if (child.half_area >= 0.0) {
+        all.triangle_area += child.triangle_area;
+        all.cost += child.cost * sah_share(child.half_area, all.half_area);
+      }
+    return all;
   }
 
   void place(std::uint32_t node, const Children& children, std::span<int> slots) const {
@@ -222,13 +253,16 @@ class Layout {
                  tree_.nodes[node].box.center(), out_.width, slots);
   }
 
-  void write_boxes(std::byte* at, const Children& children, std::span<const int> slots) const {
+  void write_boxes(std::byte* at, const Children& children, std::span<const int> slots,
+                   const std::array<Blocking, kOrderedWidth>& blocking) const {
     clear_boxes(at, out_.width);
+    if (out_.width == kOrderedWidth) write_any_order(at, blocking);
     for (std::size_t i = 0; i < static_cast<std::size_t>(children.count); ++i)
       write_box(at, out_.width, slots[i], tree_.nodes[children.node[i]].box, box_frame_);
   }
 
   const Tree& tree_;
+  const CollapseRules rules_;  // what things cost
   const Collapse& collapse_;
   const WideFrame& box_frame_;
   WideTree& out_;

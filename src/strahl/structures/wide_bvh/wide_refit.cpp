@@ -80,7 +80,7 @@ class Fitter {
     const std::span references(reference_row(block, lanes), lanes);
     Fitted fitted;
     for (const std::uint32_t reference : references) fitted.box.extend(things_.boxes[reference]);
-    if (!write_block(block, references, tree_, source_, room(block, lanes))) all_fit_ = false;
+    if (!write_block(block, references, tree_, source_, room(block, lanes)).fits) all_fit_ = false;
     fitted.cost = share(fitted.box) * (rules_.leaf_cost + rules_.primitive_cost * lanes);
     return fitted;
   }

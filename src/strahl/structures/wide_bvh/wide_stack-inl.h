@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <strahl/structures/wide_bvh/wide_any_order.h>
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
 #include <strahl/structures/wide_bvh/wide_order.h>
 
@@ -26,6 +27,10 @@ namespace HWY_NAMESPACE {
 /// Whether the children of a node are put into order by permutations of single registers.
 template <int W>
 inline constexpr bool kSortsAtOnce = WideLanes<W>::kParts == 1 && (W == 8 || kCompresses);
+
+/// Whether rays of any hit visit children in the node's order for them.
+template <int W>
+inline constexpr bool kOrdersAny = W == kOrderedWidth&& kCompresses;
 
 template <int W>
 class WideStack {
@@ -50,6 +55,7 @@ class WideStack {
   template <bool kEnters>
   HWY_INLINE WideId exchange(const WideId* children, const typename NodeTest<W>::Hits& hits,
                              std::uint32_t order, std::size_t& count) {
+    if constexpr (!kEnters && kOrdersAny<W>) return exchange_any(children, hits, count);
     const std::uint32_t slot = store_farthest_first<kEnters>(children, hits, order, count);
     // Of ids_[count - 1] and children[slot], without letting the compiler see a choice.
     const std::uintptr_t waits = reinterpret_cast<std::uintptr_t>(ids_ + count - 1);
@@ -68,6 +74,7 @@ class WideStack {
                          std::uint32_t order, std::size_t& count) {
     if constexpr (kSortsAtOnce<W>) {
       if ((hits.bits & (hits.bits - 1)) == 0) return children[__builtin_ctz(hits.bits)];
+      if constexpr (!kEnters && kOrdersAny<W>) return exchange_any(children, hits, count);
       return push_at_once<kEnters>(children, hits, order, count);
     } else {
       return push_one_by_one(children, hits, order, count);
@@ -109,6 +116,19 @@ class WideStack {
   HWY_INLINE static Lanes permuted(Lanes v, hn::Vec<DU> index) {
     const hn::DFromV<Lanes> d;
     return hn::TableLookupLanes(v, hn::IndicesFromVec(d, index));
+  }
+
+  /// exchange() in the node's order for any hit: the next is always on top.
+  HWY_INLINE WideId exchange_any(const WideId* children, const typename NodeTest<W>::Hits& hits,
+                                 std::size_t& count) {
+    const auto* planes = reinterpret_cast<const std::uint32_t*>(children) - 6 * W;
+    const auto slots = hn::And(hn::LoadU(DU(), planes), hn::Set(DU(), kOrderMask));
+    const auto bit = hn::Shl(hn::Set(DU(), 1), slots);
+    const auto is_hit = hn::TestBit(hn::Set(DU(), hits.bits), bit);
+    const auto ids = permuted(hn::LoadU(DU(), children), slots);
+    hn::StoreU(hn::Compress(ids, is_hit), DU(), ids_ + count);
+    count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
+    return ids_[count];
   }
 
   /// Writes the children hit behind what waits, whatever their number.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <strahl/structures/wide_bvh/wide_bvh.h>
+#include <strahl/structures/wide_bvh/wide_any_order.h>
 #include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 
@@ -24,6 +25,12 @@ struct StoredBox {
   static constexpr float kInf = std::numeric_limits<float>::infinity();
   float lo[3] = {kInf, kInf, kInf}, hi[3] = {-kInf, -kInf, -kInf};
 };
+
+/// The box without what the order of any hit has moved its low x plane outward, or more.
+StoredBox without_order(StoredBox box) {
+  box.lo[0] += std::abs(box.lo[0]) * 0x1p-19f + 0x1p-145f;
+  return box;
+}
 
 bool encloses(const StoredBox& outer, const StoredBox& inner) {
   for (int a = 0; a < 3; ++a)
@@ -80,7 +87,7 @@ class WideBvhChecker {
         continue;
       }
       ++used;
-      demand(encloses(box, child), "a box does not enclose a child's");
+      demand(encloses(box, without_order(child)), "a box does not enclose a child's");
       for (int a = 0; a < 3; ++a)
         demand(static_cast<double>(std::max(std::abs(child.lo[a]), std::abs(child.hi[a]))) <=
                    tree_.frame.reach,
@@ -88,6 +95,14 @@ class WideBvhChecker {
       check(child_row(node, tree_.width)[slot], child, depth + 1);
     }
     demand(used >= 2, "a node has less than two children");
+    if (tree_.width == kOrderedWidth) check_order(node);
+  }
+
+  static void check_order(const std::byte* node) {
+    std::uint32_t slots = 0;
+    for (std::size_t lane = 0; lane < kOrderedWidth; ++lane)
+      slots |= 1u << ordered_slot(plane_row(node, kOrderedWidth, 0)[lane]);
+    demand(slots == 0xffffu, "the order of any hit leaves out a slot");
   }
 
   StoredBox box_of(const std::byte* node, int slot) const {
@@ -102,7 +117,7 @@ class WideBvhChecker {
   static bool is_empty_slot(const StoredBox& box) {
     constexpr float kInf = std::numeric_limits<float>::infinity();
     for (int a = 0; a < 3; ++a)
-      if (box.lo[a] != kInf || box.hi[a] != -kInf) return false;
+      if (!(box.lo[a] > 0x1.ffffp127f) || box.hi[a] != -kInf) return false;  // x: order of any hit
     return true;
   }
 

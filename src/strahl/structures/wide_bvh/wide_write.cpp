@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <strahl/math/float_round.h>
+#include <strahl/structures/wide_bvh/wide_any_order.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 #include <strahl/structures/wide_bvh/wide_write.h>
 
@@ -14,6 +15,11 @@ namespace {
 const Vec3f kNoCorner = Vec3f::all(std::numeric_limits<float>::quiet_NaN());
 
 float* planes_of(std::byte* node) { return reinterpret_cast<float*>(node); }
+
+void put_ordered_slot(std::byte* node, int lane, std::uint32_t slot) {
+  float& plane = planes_of(node)[lane];
+  plane = with_ordered_slot(plane, slot);
+}
 
 void write_lane(std::byte* block, std::uint32_t lanes, std::uint32_t lane, const Vec3f (&abc)[3]) {
   auto* rows = reinterpret_cast<float*>(block + sizeof(LeafBound));
@@ -85,6 +91,12 @@ class BlockTriangles {
   std::size_t count_;
 };
 
+double triangle_area(std::span<const TriangleVertices> triangles) {
+  double twice = 0.0;
+  for (const TriangleVertices& t : triangles) twice += length(cross(t.b - t.a, t.c - t.a));
+  return twice / 2;
+}
+
 }  // namespace
 
 void clear_boxes(std::byte* node, int width) {
@@ -96,10 +108,17 @@ void clear_boxes(std::byte* node, int width) {
 void write_box(std::byte* node, int width, int slot, const Aabb& box, const WideFrame& frame) {
   const Vec3d lo = frame.to_frame(box.lo), hi = frame.to_frame(box.hi);
   const double off = frame.rounding();
+  const std::uint32_t ordered = ordered_slot(planes_of(node)[slot]);
   for (int axis = 0; axis < 3; ++axis) {
     planes_of(node)[axis * width + slot] = float_below(lo[axis] - off);
     planes_of(node)[(axis + 3) * width + slot] = float_above(hi[axis] + off);
   }
+  if (width == kOrderedWidth) put_ordered_slot(node, slot, ordered);
+}
+
+void write_any_order(std::byte* node, std::span<const Blocking, kOrderedWidth> children) {
+  int lane = 0;
+  for (const std::uint32_t slot : any_order(children)) put_ordered_slot(node, lane++, slot);
 }
 
 BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree& tree,
@@ -109,14 +128,15 @@ BlockSizes block_sizes(std::span<const std::uint32_t> references, const WideTree
   return compact_sizes(corners_of(BlockTriangles(references, source).all(), tree.frame));
 }
 
-bool write_block(std::byte* block, std::span<const std::uint32_t> references, const WideTree& tree,
-                 const PrimitiveSource& source, std::size_t bytes) {
+WrittenBlock write_block(std::byte* block, std::span<const std::uint32_t> references,
+                         const WideTree& tree, const PrimitiveSource& source, std::size_t bytes) {
   const BlockTriangles triangles(references, source);
+  const double area = triangle_area(triangles.all()) * tree.frame.scale * tree.frame.scale;
   if (tree.layout == WideLayout::compact)
-    return write_compact_block(block, corners_of(triangles.all(), tree.frame), bytes);
+    return {write_compact_block(block, corners_of(triangles.all(), tree.frame), bytes), area};
   if (!tree.frame.is_identity() || !write_float_corners(block, triangles.all()))
     write_corners(block, corners_of(triangles.all(), tree.frame));
-  return true;
+  return {true, area};
 }
 
 }  // namespace strahl
