@@ -24,7 +24,7 @@ struct ComparisonOptions {
   std::vector<WorkloadKind> workloads;
   std::size_t rays = 100'000;  ///< per workload
   std::size_t eye_rays =
-      std::size_t{513} * 513;                  ///< of `whitted`, which adds the rest of the tree; as published
+      std::size_t{513} * 513;     ///< of `whitted`, which adds the rest of the tree; as published
   std::size_t min_rays = 10'000;  ///< that every structure is asked, however slow it is
   int repeats = 6;                ///< the fewest of which 95 % intervals exist
   double seconds_per_cell = 2.0;  ///< for one structure on one workload, all repeats and warming up

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_any_order.h>
+#include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_compact.h>
 #include <strahl/structures/wide_bvh/wide_filter.h>
 
