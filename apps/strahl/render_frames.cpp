@@ -184,6 +184,7 @@ Json to_json(const Frame& frame) {
 
 std::vector<double> column(const std::vector<Frame>& frames, double (*value)(const Frame&)) {
   std::vector<double> values;
+  values.reserve(frames.size());
   for (const Frame& frame : frames) values.push_back(value(frame));
   return values;
 }
@@ -276,6 +277,7 @@ int run_frames(const RenderArguments& arguments) {
   Session session(arguments);
   Animation animation(arguments, session, session.load_rigged(arguments.scene));
   std::vector<Frame> frames;
+  frames.reserve(static_cast<std::size_t>(arguments.frames));
   for (int number = 0; number < arguments.frames; ++number)
     frames.push_back(animation.render_frame(number));
   session.finish_progress();

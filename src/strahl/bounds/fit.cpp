@@ -135,14 +135,14 @@ std::array<Vec3d, 3> principal_axes(std::span<const Vec3d> points,
 }
 
 const std::array<Vec3d, 13>& dop_directions() {
-  static const std::array<Vec3d, 13> directions = [] {
+  static const std::array<Vec3d, 13> kDirections = [] {
     std::array<Vec3d, 13> d{Vec3d{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 1}, {1, 1, -1},
                             {1, -1, 1},     {-1, 1, 1}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1},
                             {1, -1, 0},     {1, 0, -1}, {0, 1, -1}};
     for (Vec3d& n : d) n = normalized(n);
     return d;
   }();
-  return directions;
+  return kDirections;
 }
 
 Vec3d longest_direction(std::span<const Vec3d> points) {

@@ -113,6 +113,7 @@ ObbAxes search_axes(const FitCloud& cloud, ObbGoal goal, FitEffort effort) {
   if (effort == FitEffort::thorough)
     for (const Vec3d& n : face_normals(cloud, kMostFaces)) candidates.push_back(n);
   std::vector<std::pair<double, Vec3d>> tried;
+  tried.reserve(candidates.size());
   for (const Vec3d& axis : candidates) tried.push_back({search(axis), axis});
   const auto cheaper = [](const auto& a, const auto& b) { return a.first < b.first; };
   std::stable_sort(tried.begin(), tried.end(), cheaper);

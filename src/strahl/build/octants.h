@@ -132,8 +132,10 @@ class OctantTree {
   /// First of the consecutive children of a block.
   std::uint32_t child(std::uint32_t block) const { return 1 + (block << axes_.count); }
   /// Where halves below the planes of a block end and where those above begin.
-  const Vec3d& end(std::uint32_t block) const { return planes_[block * stride_]; }
-  const Vec3d& begin(std::uint32_t block) const { return planes_[block * stride_ + stride_ - 1]; }
+  const Vec3d& end(std::uint32_t block) const { return planes_[std::size_t{block} * stride_]; }
+  const Vec3d& begin(std::uint32_t block) const {
+    return planes_[std::size_t{block} * stride_ + stride_ - 1];
+  }
   bool is_loose() const { return stride_ > 1; }
   /// Where halves below begin and those above end. Requires: is_loose().
   const Vec3d& low(std::uint32_t block) const { return planes_[block * stride_ + 1]; }

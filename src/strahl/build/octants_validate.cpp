@@ -59,7 +59,8 @@ class OctantChecker {
                    const std::vector<std::uint32_t>& candidates) {
     const std::uint32_t block = tree_.nodes_[index].block;
     demand(block == next_block_++, "blocks are not numbered depth first");
-    demand((block + 1u) * tree_.stride_ <= tree_.planes_.size(), "a block without planes");
+    demand((std::size_t{block} + 1) * tree_.stride_ <= tree_.planes_.size(),
+           "a block without planes");
     check_planes(block, at.cell);
     if (tree_.options_.traversal == OctantTraversal::neighbour) {
       demand(tree_.parents_.at(block) == index, "a block does not know its parent");

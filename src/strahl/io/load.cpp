@@ -63,6 +63,7 @@ RiggedScene load_rigged_scene(const std::string& scene) {
 
 std::vector<std::string> supported_extensions() {
   std::vector<std::string> extensions;
+  extensions.reserve(std::size(kFormats));
   for (const Format& format : kFormats) extensions.emplace_back(format.extension);
   return extensions;
 }

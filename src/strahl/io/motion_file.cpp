@@ -66,7 +66,7 @@ class TrackReader {
 
   /// The list of that name, one element per time.
   std::optional<JsonValue> find_values(const char* name) const {
-    const std::optional<JsonValue> list = track_.find(name);
+    std::optional<JsonValue> list = track_.find(name);
     if (list && list->size() != shared_.times.size())
       list->fail(std::to_string(list->size()) + " values for " +
                  std::to_string(shared_.times.size()) + " times");

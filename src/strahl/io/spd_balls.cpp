@@ -35,7 +35,8 @@ Directions directions_around_up() {
   const std::array<Vec3d, 3> trio{Vec3d{1.0, 1.0, 0.0}, {1.0, 0.0, -1.0}, {0.0, 1.0, -1.0}};
   Directions directions;
   for (std::size_t k = 0; k < 9; ++k) {
-    const Affine turn = spd::rotation(2, static_cast<double>(k / 3) * 2.0 * spd::kPi / 3.0);
+    const std::size_t third = k / 3;
+    const Affine turn = spd::rotation(2, static_cast<double>(third) * 2.0 * spd::kPi / 3.0);
     directions[k] = turn.vector(tilt.vector(normalized(trio[k % 3])));
   }
   return directions;

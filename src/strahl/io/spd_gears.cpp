@@ -11,7 +11,7 @@ namespace strahl {
 namespace {
 
 constexpr int kTeeth = 36;
-constexpr std::size_t kCorners = 4 * kTeeth;
+constexpr std::size_t kCorners = std::size_t{4} * kTeeth;
 constexpr double kRimGap = 0.05;  // how far neighbouring gears interlock, of the radius
 
 struct Gear {
@@ -26,9 +26,10 @@ std::array<Vec3d, kCorners> outline(const Gear& gear, double turn, double drop) 
   std::array<Vec3d, kCorners> corners;
   for (std::size_t i = 0; i < kCorners; ++i) {
     const double radius = i % 4 < 2 ? gear.outer_radius : gear.inner_radius;
-    const double tooth =
-        gear.offset_angle + turn * 2.0 * spd::kPi * static_cast<double>(i / 4) / kTeeth;
-    const double angle = tooth + fraction[i % 4] * pitch;
+    const std::size_t tooth = i / 4;
+    const double begin =
+        gear.offset_angle + turn * 2.0 * spd::kPi * static_cast<double>(tooth) / kTeeth;
+    const double angle = begin + fraction[i % 4] * pitch;
     corners[i] = Vec3d{radius * std::cos(angle), radius * std::sin(angle), -drop} + gear.center;
   }
   return corners;

@@ -49,7 +49,8 @@ struct Lattice {
 }  // namespace
 
 NffScene spd_lattice(int size) {
-  const double x = (size / 2 + 0.5) / size, half_cell = 0.5 / size;
+  const int middle = size / 2;
+  const double x = (middle + 0.5) / size, half_cell = 0.5 / size;
   Lattice lattice{
       spd::stage({x, 1.0, 1.0 - half_cell}, {x, -1.0, -1.0 - half_cell}, {0.2, 1, 0}, 60.0, 0.0,
                  {{2, 0.5, 0.5},

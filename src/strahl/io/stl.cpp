@@ -50,7 +50,7 @@ void read_binary(const FileBytes& file, std::uint64_t count, SceneData& scene) {
   vertices.reserve(3 * count);
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::byte* corner = file.bytes.data() + kPreamble + i * kRecord + kNormal;
-    for (int k = 0; k < 3; ++k) vertices.push_back(load_vertex(corner + 12 * k));
+    for (int k = 0; k < 3; ++k) vertices.push_back(load_vertex(corner + std::ptrdiff_t{12} * k));
   }
   add_triangles(file, std::move(vertices), scene);
 }

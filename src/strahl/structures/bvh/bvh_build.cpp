@@ -15,9 +15,9 @@ namespace strahl {
 namespace {
 
 /// The finished tree, twice, per primitive; and what builders need at their peak beside it.
-constexpr std::uint64_t kTreeBytes = 2 * (sizeof(TreeNode) + sizeof(HierarchyNode)) + 2 * 4;
-constexpr std::uint64_t kSweepBytes = 3 * 4 + 1 + 8 + 4;
-constexpr std::uint64_t kCurveBytes = 2 * 16;
+constexpr std::uint64_t kTreeBytes = 2 * (sizeof(TreeNode) + sizeof(HierarchyNode) + 4);
+constexpr std::uint64_t kSweepBytes = 4 + 4 + 4 + 1 + 8 + 4;
+constexpr std::uint64_t kCurveBytes = 16 + 16;
 constexpr std::uint64_t kLinkedBytes = 2 * sizeof(LinkedNode);
 
 class BvhBuild {

@@ -50,6 +50,7 @@ Hug::Hug(const PrimitiveSource& source, const Options& options, const BuildConte
   const HugRules rules{options.groups, options.ratio, options.connectivity, min_cluster_};
   const std::vector<HugPlan> plans = plan_hug(refs, rules, context);
   std::vector<Aabb> boxes;
+  boxes.reserve(plans.size());
   for (const HugPlan& plan : plans) boxes.push_back(plan.box);
   const HugSource with_grids(source, std::move(boxes));
   NestingOptions flat;

@@ -13,7 +13,7 @@ bool CellCache::Cell::has_children() const {
   });
 }
 
-CellCache::CellCache(std::vector<std::span<const std::uint32_t>> roots, std::uint64_t budget,
+CellCache::CellCache(const std::vector<std::span<const std::uint32_t>>& roots, std::uint64_t budget,
                      int patience)
     : budget_(budget), patience_(static_cast<std::uint8_t>(patience)) {
   for (const auto& list : roots)

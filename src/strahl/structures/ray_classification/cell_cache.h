@@ -71,7 +71,8 @@ class CellCache {
 
   /// @param roots lists of the roots; must outlive it
   /// @param patience rays that want a missing child before it is made, 1..128
-  CellCache(std::vector<std::span<const std::uint32_t>> roots, std::uint64_t budget, int patience);
+  CellCache(const std::vector<std::span<const std::uint32_t>>& roots, std::uint64_t budget,
+            int patience);
   ~CellCache();
   CellCache(const CellCache&) = delete;
   CellCache& operator=(const CellCache&) = delete;

@@ -46,9 +46,10 @@ RayClassification::RayClassification(const PrimitiveSource& source, const Option
       max_depth_(depth_of(options.min_cell)) {
   if (candidates_.empty()) return;
   std::vector<std::span<const std::uint32_t>> roots;
+  roots.reserve(std::size_t{2} * kFaces);
   for (int root = 0; root < 2 * kFaces; ++root) roots.push_back(candidates_.order(root % kFaces));
   cells_ = std::make_unique<CellCache>(
-      std::move(roots), cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
+      roots, cell_budget(candidates_, options.bytes_per_primitive, context.memory_limit),
       options.patience);
 }
 

@@ -83,7 +83,7 @@ class RayClassification {
     return query.filter.cull_back;
   }
   static std::size_t root_of(int face, bool culls) {
-    return static_cast<std::size_t>(face + (culls ? kFaces : 0));
+    return static_cast<std::size_t>(face) + (culls ? std::size_t{kFaces} : 0);
   }
   bool is_divided(const Cell& cell, int depth) const {
     return depth < max_depth_ && cell.list().size() > max_candidates_;
