@@ -17,6 +17,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <strahl/structures/wide_bvh/wide_decide-inl.h>
 #include <strahl/structures/wide_bvh/wide_packet-inl.h>
 #include <strahl/structures/wide_bvh/wide_prepare-inl.h>
 #include <strahl/structures/wide_bvh/wide_settle-inl.h>
@@ -41,6 +42,7 @@ WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
   kernel.isa = isa, kernel.prepare = &prepare, kernel.settle = &settle;
   kernel.settle_given = &settle_given;
+  kernel.decide[0] = &decide<8>, kernel.decide[1] = &decide<16>;
   kernel.best_width = HWY_MAX_BYTES >= 64 ? 16 : 8;
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);
