@@ -235,8 +235,8 @@ HWY_INLINE WideDecision decide_block(const Decision& decision, const BlockView& 
 
 /// Of a block that holds the very corners, and a ray as it is given.
 template <int W>
-WideDecision decide(const WideTree& tree, const WideRays& rays, std::uint32_t ray, WideId leaf,
-                    std::uint32_t lanes) {
+HWY_INLINE WideDecision decide(const WideTree& tree, const WideRays& rays, std::uint32_t ray,
+                               WideId leaf, std::uint32_t lanes) {
   ExpandedBlock<W> room;
   return decide_block(Decision(rays, ray), view<W>(tree.at(leaf), lanes_of(leaf), room), lanes);
 }
