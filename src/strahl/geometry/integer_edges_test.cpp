@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <strahl/base/rng.h>
+#include <strahl/geometry/edge_signs.h>
 #include <strahl/geometry/integer_edges.h>
 #include <strahl/geometry/triangle.h>
 

@@ -1,80 +1,17 @@
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 
-#include <strahl/geometry/integer_edges.h>
+#include <strahl/geometry/edge_signs.h>
+#include <strahl/geometry/exact_vec.h>
 #include <strahl/geometry/triangle.h>
 #include <strahl/math/coordinate.h>
 #include <strahl/math/double_double.h>
-#include <strahl/math/expansion.h>
 
 namespace strahl {
 namespace {
 
-template <std::size_t N>
-struct ExactVec {
-  Expansion<N> x, y, z;
-};
-
-ExactVec<2> difference(const Vec3d& a, const Vec3d& b) {
-  return {exact_difference(a.x, b.x), exact_difference(a.y, b.y), exact_difference(a.z, b.z)};
-}
-template <std::size_t N, std::size_t M>
-auto exact_cross(const ExactVec<N>& a, const ExactVec<M>& b) {
-  return ExactVec<4 * N * M>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-template <std::size_t N, std::size_t M>
-auto exact_dot(const ExactVec<N>& a, const ExactVec<M>& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-ExactVec<1> exact(const Vec3d& v) {
-  return {Expansion<1>(v.x), Expansion<1>(v.y), Expansion<1>(v.z)};
-}
-
 ExactVec<16> exact_normal(const TriangleVertices& tri) {
   return exact_cross(difference(tri.b, tri.a), difference(tri.c, tri.a));
-}
-
-int sign(double v) { return (v > 0.0) - (v < 0.0); }
-
-int first_nonzero(std::initializer_list<int> signs) {
-  for (int s : signs)
-    if (s != 0) return s;
-  return 0;
-}
-
-/// Perturbation terms after dir . n = 0 and n = 0: those of org, then of both.
-int sign_on_edge_line(const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
-  const auto c = difference(q, p);
-  const auto m = exact_cross(exact(dir), c);
-  return first_nonzero({m.x.sign(), m.y.sign(), m.z.sign(), -c.z.sign(), c.y.sign(), -c.x.sign()});
-}
-
-/// Whether dir x P is 0, P = point - org. Sure when true: the products are exact for directions of
-/// 24 bits and P of 29, as float32 coordinates give them.
-inline bool passes_exactly(const Vec3d& dir, const Vec3d& org, const Vec3d& point, const Vec3d& P) {
-  const bool is_along =
-      (dir.y * P.z == dir.z * P.y) & (dir.z * P.x == dir.x * P.z) & (dir.x * P.y == dir.y * P.x);
-  if (!is_along) return false;
-  bool is_exact = Vec3d(Vec3f(dir)) == dir;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double scaled = 0x1.000001p24 * P[axis];
-    is_exact &= scaled - (scaled - P[axis]) == P[axis];
-    is_exact &= two_sum(point[axis], -org[axis]).low == 0.0;
-  }
-  return is_exact;
-}
-
-/// The sign of the first component of P x Q that is not 0; 0 where rounding leaves it uncertain.
-int certain_normal_sign(const Vec3d& P, const Vec3d& Q) {
-  for (int x = 0; x < 3; ++x) {
-    const int y = (x + 1) % 3, z = (x + 2) % 3;
-    const double a = P[y] * Q[z], b = P[z] * Q[y];
-    // Differences, products and their difference: four roundings at most, none of zeros.
-    if (a == 0.0 && b == 0.0) continue;
-    return std::abs(a - b) > 8 * 0x1p-53 * (std::abs(a) + std::abs(b)) ? sign(a - b) : 0;
-  }
-  return 0;
 }
 
 /// numerator / denominator when both are certain to 2^-42, else empty.
@@ -173,64 +110,6 @@ int orientation_2d(const Vec3d& p, const Vec3d& q, const Vec3d& r, int axis) {
       .sign();
 }
 
-/// Signs of the edges of a triangle, each found by the cheapest means that is certain. Edge i runs
-/// from corner i to the next: ab, bc, ca.
-class EdgeSigns {
- public:
-  /// @param e filtered values of ab, ca, bc
-  EdgeSigns(const ExactRay& ray, const TriangleVertices& tri, const Vec3d& e)
-      : ray_(ray), tri_(tri), to_{tri.a - ray.org, tri.b - ray.org, tri.c - ray.org} {
-    const double per_reach = 16 * 0x1p-53 * norm1(ray.dir);
-    const double reach[] = {norm_max(to_[0]), norm_max(to_[1]), norm_max(to_[2])};
-    const double values[] = {e.x, e.z, e.y};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double bound = std::min(ray.edge_error, per_reach * (reach[i] * reach[next(i)]));
-      sign_[i] = std::abs(values[i]) > bound ? sign(values[i]) : 0;
-    }
-  }
-
-  /// The sign that all share, if they do.
-  std::optional<int> common() {
-    if (has(0) && !differ()) find_at_corner();
-    if (has(0) && !differ()) find_by_integers();
-    for (std::size_t i = 0; i < 3 && !differ(); ++i)
-      if (sign_[i] == 0) sign_[i] = exact_edge_sign(ray_.org, ray_.dir, corner(i), corner(next(i)));
-    if (differ() || has(0)) return std::nullopt;
-    return sign_[0];
-  }
-
- private:
-  static std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
-  const Vec3d& corner(std::size_t i) const { return i == 0 ? tri_.a : i == 1 ? tri_.b : tri_.c; }
-  bool has(int s) const { return sign_[0] == s || sign_[1] == s || sign_[2] == s; }
-  bool differ() const { return has(1) && has(-1); }
-
-  /// Rays aimed at vertices: the two edges there have e = 0, and their next terms are certain.
-  void find_at_corner() {
-    for (std::size_t known = 0; known < 3; ++known) {
-      const std::size_t from = next(known), at = next(from);  // the edges from -> at -> known
-      if (sign_[known] == 0 || sign_[from] != 0 || sign_[at] != 0) continue;
-      if (!passes_exactly(ray_.dir, ray_.org, corner(at), to_[at])) return;
-      sign_[from] = certain_normal_sign(to_[from], to_[at]);
-      if (!differ()) sign_[at] = certain_normal_sign(to_[at], to_[known]);
-      return;
-    }
-  }
-
-  void find_by_integers() {
-    const auto integers = IntegerEdges::make(ray_.org, ray_.dir, tri_);
-    if (!integers) return;
-    if (sign_[0] == 0) sign_[0] = integers->ab();
-    if (sign_[1] == 0) sign_[1] = integers->bc();
-    if (sign_[2] == 0) sign_[2] = integers->ca();
-  }
-
-  const ExactRay& ray_;
-  const TriangleVertices& tri_;
-  Vec3d to_[3];  ///< corners from the origin
-  int sign_[3];  ///< 0 as long as it is not known
-};
-
 /// A nearly convex polygon. Rounding may bend it, so a cut can replace each outside corner by two:
 /// 3 corners become at most 4, 6, 9, 13, 19, 28 in six cuts.
 struct Polygon {
@@ -255,13 +134,6 @@ Polygon cut(const Polygon& in, int axis, double plane, double side) {
 }
 
 }  // namespace
-
-int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q) {
-  const auto n = exact_cross(difference(p, org), difference(q, org));
-  const int first =
-      first_nonzero({exact_dot(n, exact(dir)).sign(), n.x.sign(), n.y.sign(), n.z.sign()});
-  return first != 0 ? first : sign_on_edge_line(dir, p, q);
-}
 
 std::optional<TriangleHit> intersect_uncertain(const ExactRay& ray, const TriangleVertices& tri,
                                                const Vec3d& edge_values) {

@@ -8,8 +8,8 @@
 //   seven roundings (P, Q, product, difference, product, two sums), so with M >= |P|, |Q| the error
 //   is below gamma(7) * 2 |dir|_1 M^2 < 16 u |dir|_1 M^2 = ExactRay::edge_error. A larger |e|
 //   has a certain sign. Else the bound is sharpened to this edge; then, where the ray passes
-//   exactly through an end, e is 0 and the next terms are doubles; then integers of 128 bits are
-//   tried (integer_edges.h); else expansions decide.
+//   exactly through an end, e is 0 and the next terms are doubles (edge_signs.h); then integers of
+//   128 bits are tried (integer_edges.h); else expansions decide.
 // Parameter: t = (A . N) / (dir . N), N = (b - a) x (c - a). A . N and dir . N carry at most eight
 //   roundings per monomial; when both exceed 2^42 times that bound their quotient is within
 //   2^-41 + 2^-53 of the truth. Else both are computed exactly, rounded once, then divided.
@@ -24,9 +24,6 @@
 #include <strahl/math/ray.h>
 
 namespace strahl {
-
-/// Exact sign (+1 or -1) of the directed edge (p, q) as the perturbed ray passes it; 0 if p == q.
-int exact_edge_sign(const Vec3d& org, const Vec3d& dir, const Vec3d& p, const Vec3d& q);
 
 /// Canonical t from numerator and denominator computed exactly; empty when not finite.
 std::optional<double> exact_t(const Vec3d& org, const Vec3d& dir, const TriangleVertices& tri);

@@ -126,12 +126,15 @@ class WideFloatTrace {
   }
 
   bool decide(std::uint32_t i, WideId leaf, std::uint32_t lanes) {
+    const WideDecision decision = decide_lanes(i, leaf, lanes);
+    if ((decision.crossed | decision.left) == 0) return false;
     if constexpr (!kIsAny)
       if (known_.candidate[i] != 0) settle(i);
     const Ray ray = given_ray(i);
     Q query(ray, HitFilter{});
     if constexpr (!kIsAny) query.best = answers_[i];
-    offer(i, ray, leaf, lanes, query);
+    if (!offer_crossed(ray, leaf, decision, query) && decision.left != 0)
+      offer(i, ray, leaf, decision.left, query);
     if constexpr (kIsAny) {
       answers_[i] = std::uint8_t{query.found};
       return query.found;
@@ -140,6 +143,27 @@ class WideFloatTrace {
       narrow(i, query.best.t * double{rays_.per_t[i]});
       return false;
     }
+  }
+
+  WideDecision decide_lanes(std::uint32_t i, WideId leaf, std::uint32_t lanes) const {
+    if (!tree_.is_exact(tree_.at(leaf))) return {0, 0, lanes};
+    return kernel_.decide[tree_.width == 16](tree_, rays_, i, leaf, lanes);
+  }
+
+  /// Whether the query is over.
+  bool offer_crossed(const Ray& ray, WideId leaf, const WideDecision& decision, Q& query) {
+    const std::byte* at = tree_.at(leaf);
+    const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
+    for (std::uint32_t rest = decision.crossed; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+      const TriangleVertices tri = stored_corners(at, count, lane);
+      const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
+      if (!t) continue;
+      Hit hit = prims_.blank_hit(references[lane]);
+      hit.t = *t + 0.0, hit.is_front = (decision.fronts >> lane & 1u) != 0;  // -0 + 0 is +0
+      if (query.offer(hit)) return true;
+    }
+    return false;
   }
 
   /// The exact test of lanes; of triangles with the corners of the block where they are the

@@ -7,11 +7,8 @@
 
 #include <strahl/base/error.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
+#include <strahl/structures/wide_bvh/wide_targets.h>
 
-// Sets of extensions that the kernels have no use for, and those whose registers have no size known
-// to the compiler: they cannot be members.
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "strahl/structures/wide_bvh/wide_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -24,6 +21,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
 namespace HWY_NAMESPACE {
+
+// In wide_decide.cpp.
+WideDecision decide8(const WideTree& tree, const WideRays& rays, std::uint32_t ray, WideId leaf,
+                     std::uint32_t lanes);
+WideDecision decide16(const WideTree& tree, const WideRays& rays, std::uint32_t ray, WideId leaf,
+                      std::uint32_t lanes);
 
 template <WideMode M>
 void add_mode(WideKernel& kernel) {
@@ -41,6 +44,7 @@ WideKernel make_kernel(const char* isa) {
   WideKernel kernel;
   kernel.isa = isa, kernel.prepare = &prepare, kernel.settle = &settle;
   kernel.settle_given = &settle_given;
+  kernel.decide[0] = &decide8, kernel.decide[1] = &decide16;
   kernel.best_width = HWY_MAX_BYTES >= 64 ? 16 : 8;
   add_mode<WideMode::closest>(kernel);
   add_mode<WideMode::any>(kernel);

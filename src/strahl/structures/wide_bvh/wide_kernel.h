@@ -82,6 +82,12 @@ struct WideCorners {
   }
 };
 
+/// What the exact test says of lanes of a block (bits): crossed, those of them from the front, and
+/// those that are left to geometry/triangle.h. The others are missed.
+struct WideDecision {
+  std::uint32_t crossed, fronts, left;
+};
+
 /// The traversals of one instruction set.
 struct WideKernel {
   const char* isa = "";
@@ -96,6 +102,10 @@ struct WideKernel {
   /// The same for the corners given. Returns bits of candidates whose t is certain.
   std::uint64_t (*settle_given)(const WideRays& rays, const WideCorners& corners,
                                 std::uint64_t candidates, double* t) = nullptr;
+  /// What lanes of a block with the very corners a ray of floats crosses, per width 8 or 16:
+  /// wide_decide-inl.h.
+  WideDecision (*decide[2])(const WideTree& tree, const WideRays& rays, std::uint32_t ray,
+                            WideId leaf, std::uint32_t lanes) = {};
   /// All rays at once, for closest and any without counts; null where that does not pay.
   WideTraverse fly[2][2] = {};
   int best_width = 8;  ///< what width=auto builds for it

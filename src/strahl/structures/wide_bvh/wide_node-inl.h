@@ -47,6 +47,8 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
 #if HWY_TARGET == HWY_AVX2
   if constexpr (hn::MaxLanes(D()) == 8 && std::is_same_v<hn::TFromD<D>, float>)
     return static_cast<std::uint32_t>(_mm256_movemask_ps(hn::VecFromMask(d, mask).raw));
+  if constexpr (hn::MaxLanes(D()) == 4 && std::is_same_v<hn::TFromD<D>, double>)
+    return static_cast<std::uint32_t>(_mm256_movemask_pd(hn::VecFromMask(d, mask).raw));
 #endif
   std::uint8_t bytes[8];  // StoreMaskBits may write eight
   hn::StoreMaskBits(d, mask, bytes);

@@ -11,8 +11,8 @@
 #endif
 
 #include <strahl/structures/wide_bvh/wide_compact.h>
+#include <strahl/structures/wide_bvh/wide_doubles-inl.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
-#include <strahl/structures/wide_bvh/wide_node-inl.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace strahl {
@@ -49,12 +49,9 @@ class StoredCorners {
 };
 
 /// Rays of one register of doubles.
-class Settlement {
+class Settlement : Doubles {
  public:
-  using D = hn::CappedTag<double, 8>;
-  using DF = hn::Rebind<float, D>;
-  using V = hn::Vec<D>;
-  static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
+  using Doubles::kLanes;
 
   /// @param corners nine rows of floats or doubles
   template <class Row>
@@ -77,35 +74,6 @@ class Settlement {
   }
 
  private:
-  struct V3 {
-    V x, y, z;
-  };
-  template <class Row>
-  HWY_INLINE static V3 load(const Row* rows, std::uint32_t first) {
-    return {wide(rows[0] + first), wide(rows[1] + first), wide(rows[2] + first)};
-  }
-  HWY_INLINE static V wide(const float* row) { return hn::PromoteTo(D(), hn::Load(DF(), row)); }
-  HWY_INLINE static V wide(const double* row) { return hn::Load(D(), row); }
-  HWY_INLINE static V3 minus(const V3& a, const V3& b) {
-    return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-  }
-  HWY_INLINE static V difference(V a, V b, V c, V d) {
-    return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
-  }
-  HWY_INLINE static V3 cross(const V3& a, const V3& b) {
-    return {difference(a.y, b.z, a.z, b.y), difference(a.z, b.x, a.x, b.z),
-            difference(a.x, b.y, a.y, b.x)};
-  }
-  HWY_INLINE static V dot(const V3& a, const V3& b) {
-    return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-  }
-  HWY_INLINE static V norm1(const V3& a) {
-    return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
-  }
-  HWY_INLINE static V norm_max(const V3& a) {
-    return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
-  }
-
   V3 org_, dir_, ab_, ac_, to_a_;
 };
 
