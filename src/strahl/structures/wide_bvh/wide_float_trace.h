@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -84,11 +86,21 @@ class WideFloatTrace {
   void finish(std::uint32_t count) {
     if constexpr (kIsAny) {
       const std::uint64_t found = known_.found | decided_;
-      for (std::uint32_t i = 0; i < count; ++i) answers_[i] = std::uint8_t{(found >> i & 1u) != 0};
+      std::uint32_t i = 0;
+      for (; i + 8 <= count; i += 8) put_bits(found >> i, answers_ + i);
+      for (; i < count; ++i) answers_[i] = std::uint8_t{(found >> i & 1u) != 0};
     } else {
       std::uint64_t missed = ~(settle_all() | decided_) & all_of(count);
       for (; missed != 0; missed &= missed - 1) answers_[std::countr_zero(missed)] = Hit{};
     }
+  }
+  /// The lowest eight as bytes: copied to each, the byte's own bit kept there, moved to its end.
+  /// Little-endian, as all of it is (base/hash.h).
+  static void put_bits(std::uint64_t bits, std::uint8_t* bytes) {
+    constexpr std::uint64_t kEach = 0x0101010101010101u;
+    const std::uint64_t own = (bits & 0xffu) * kEach & 0x8040201008040201u;
+    const std::uint64_t ends = (own + 0x7f * kEach) >> 7 & kEach;
+    std::memcpy(bytes, &ends, sizeof ends);
   }
   static std::uint64_t all_of(std::uint32_t count) {
     return ~std::uint64_t{0} >> (kWideBlock - count);
