@@ -110,18 +110,22 @@ class LeafTest {
 
   /// Lanes that are certainly crossed, certainly behind t_min and certainly before `lower`.
   HWY_INLINE std::uint32_t certain(const Values& r, V lower) const {
+    return bits_of(D(), is_certain(r, lower)) & r.possible;
+  }
+  HWY_INLINE hn::Mask<D> is_certain(const Values& r, V lower) const {
     const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
     const auto inside =
         hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
     const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
     const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
-    return bits_of(D(), hn::And(hn::And(inside, behind), before)) & r.possible;
+    return hn::And(hn::And(inside, behind), before);
   }
 
   /// Lanes hit from behind, if they are hit.
-  HWY_INLINE static std::uint32_t backs(const Values& r) {
+  HWY_INLINE static std::uint32_t backs(const Values& r) { return backs(r.det_sign); }
+  HWY_INLINE static std::uint32_t backs(V det_sign) {
     const typename L::DI di;
-    return bits_of(di, hn::Lt(hn::BitCast(di, r.det_sign), hn::Zero(di)));
+    return bits_of(di, hn::Lt(hn::BitCast(di, det_sign), hn::Zero(di)));
   }
 
   /// Where certain lanes are hit.
