@@ -51,8 +51,10 @@ class Packet {
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
   /// A child costs a packet what it costs so many rays to visit a node, more where the rays are of
   /// several octants; a ray's test of a block costs as many tests of a triangle by a register.
-  /// With registers of 8 rays more so.
-  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = kCompresses ? 5 : 12;
+  /// With registers of 8 rays more so, but less where all begin at one point.
+  static constexpr int kRaysPerChild = kCompresses ? 3 : 10;
+  static constexpr int kPencilRaysPerChild = kCompresses ? 3 : 6;
+  static constexpr int kMixedRaysPerChild = kCompresses ? 5 : 12;
   static constexpr int kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
@@ -85,12 +87,16 @@ class Packet {
            kTrianglesPerTest * static_cast<std::uint32_t>(__builtin_popcountll(rays));
   }
 
+  int rays_per_child() const {
+    if (!beam_.has_one_octant()) return kMixedRaysPerChild;
+    return beam_.has_one_origin() ? kPencilRaysPerChild : kRaysPerChild;
+  }
+
   void divide(WideId id, std::uint64_t rays) {
     const std::byte* node = job_.tree.at(id);
     typename NodeTest<W>::Hits hits;
     beam_.test(node, hn::Set(D(), farthest_), hits);
-    const int dear = beam_.has_one_octant() ? kRaysPerChild : kMixedRaysPerChild;
-    if (dear * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
+    if (rays_per_child() * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
       return hand_over(id, rays);
     alignas(64) float enter[W];
     hn::Store(hits.enter[0], D(), enter);
