@@ -12,6 +12,7 @@
 #define STRAHL_WIDE_GROUP_INL_H_
 #endif
 
+#include <strahl/structures/wide_bvh/wide_limits-inl.h>
 #include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -59,7 +60,7 @@ class Group {
       const std::uint32_t left = values.possible & rays_ & ~take(values, lane);
       if (HWY_LIKELY(left == 0)) continue;
       store(block.id);
-      rays_ &= ~resolve(job_, first_, block.id, lane, left);
+      rays_ &= ~resolve(job_, first_, block, lane, left, left & test_.inside(values));
       load();
       is_resolved_ = true;
     }
@@ -80,8 +81,8 @@ class Group {
     lane_ = hn::Set(DU(), kNone);
   }
 
-  /// Certain hits become the nearest known. Rays that do not reach the block may be among them: what
-  /// is certainly hit is hit.
+  /// Certain hits become the nearest known. Rays that do not reach the block may be among them:
+  /// what is certainly hit is hit.
   /// @return bits of the rays
   HWY_INLINE std::uint32_t take(const Values& values, std::uint32_t lane) {
     const auto is_certain = test_.is_certain(values, lower_);
@@ -108,7 +109,8 @@ class Group {
     const auto is_new = hn::Ne(lane_, hn::Set(DU(), kNone));
     const std::uint32_t bits = bits_of(DU(), is_new);
     if (bits == 0) return false;
-    hn::Store(upper_, D(), answers_.upper + first_), hn::Store(lower_, D(), answers_.lower + first_);
+    hn::Store(upper_, D(), answers_.upper + first_),
+        hn::Store(lower_, D(), answers_.lower + first_);
     hn::BlendedStore(hn::Set(DU(), id), is_new, DU(), answers_.candidate + first_);
     hn::BlendedStore(lane_, is_new, DU(), answers_.lane + first_);
     const auto references = hn::LoadU(DU(), reference_row(job_.tree.at(id), lanes_of(id)));
@@ -120,15 +122,23 @@ class Group {
     return true;
   }
 
-  /// The exact test of these rays and the triangle of one lane. Apart, as what it is given by
-  /// address would be in memory all the time.
+  /// The exact test of these rays and the triangle of one lane, some of which certainly cross it.
+  /// Apart, as what it is given by address would be in memory all the time.
   /// @return bits of the rays that are at their end
-  HWY_NOINLINE static std::uint32_t resolve(WideJob& job, std::uint32_t first, WideId id,
-                                            std::uint32_t lane, std::uint32_t left) {
+  HWY_NOINLINE static std::uint32_t resolve(WideJob& job, std::uint32_t first,
+                                            const SeenBlock<W>& block, std::uint32_t lane,
+                                            std::uint32_t left, std::uint32_t crossing) {
     std::uint32_t over = 0;
+    if (M == WideMode::any && crossing != 0 && job.tree.is_exact(job.tree.at(block.id))) {
+      const std::uint32_t stride = block.view.stride;
+      const LimitTest test(corner_row(block.view.at, stride, 0) + lane, stride);
+      const LimitTest::Bits known = decide_limits(test, job.rays, job.answers, first, crossing);
+      over = known.hit, left &= ~(known.hit | known.missed);
+      job.answers.found |= std::uint64_t{known.hit} << first;
+    }
     for (; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(__builtin_ctz(left));
-      const bool is_over = Taker<W, M>(job, first + i).resolve_others(id, 0, 1u << lane);
+      const bool is_over = Taker<W, M>(job, first + i).resolve_others(block.id, 0, 1u << lane);
       over |= std::uint32_t{is_over} << i;
     }
     return over;

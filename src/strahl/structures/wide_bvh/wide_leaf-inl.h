@@ -113,13 +113,18 @@ class LeafTest {
     return bits_of(D(), is_certain(r, lower)) & r.possible;
   }
   HWY_INLINE hn::Mask<D> is_certain(const Values& r, V lower) const {
-    const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
-    const auto inside =
-        hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
+    const V t_error = hn::Neg(r.t_error);
     const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
     const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
-    return hn::And(hn::And(inside, behind), before);
+    return hn::And(hn::And(is_inside(r), behind), before);
   }
+
+  /// Lanes that are certainly crossed, wherever.
+  HWY_INLINE static hn::Mask<D> is_inside(const Values& r) {
+    const V error = hn::Neg(r.error);
+    return hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
+  }
+  HWY_INLINE static std::uint32_t inside(const Values& r) { return bits_of(D(), is_inside(r)); }
 
   /// Lanes hit from behind, if they are hit.
   HWY_INLINE static std::uint32_t backs(const Values& r) { return backs(r.det_sign); }
