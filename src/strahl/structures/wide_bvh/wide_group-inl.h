@@ -60,7 +60,7 @@ class Group {
       const std::uint32_t left = values.possible & rays_ & ~take(values, lane);
       if (HWY_LIKELY(left == 0)) continue;
       store(block.id);
-      rays_ &= ~resolve(job_, first_, block, lane, left, left & test_.inside(values));
+      rays_ &= ~resolve(job_, first_, block, lane, left, left & crossing(values));
       load();
       is_resolved_ = true;
     }
@@ -79,6 +79,11 @@ class Group {
     upper_ = hn::Load(D(), answers_.upper + first_);
     lower_ = hn::Load(D(), answers_.lower + first_);
     lane_ = hn::Set(DU(), kNone);
+  }
+
+  /// Rays that certainly cross the triangle and may do so where no hit counts.
+  HWY_INLINE std::uint32_t crossing(const Values& values) const {
+    return M == WideMode::any ? test_.inside(values) : test_.at_begin(values);
   }
 
   /// Certain hits become the nearest known. Rays that do not reach the block may be among them:
@@ -129,12 +134,11 @@ class Group {
                                             const SeenBlock<W>& block, std::uint32_t lane,
                                             std::uint32_t left, std::uint32_t crossing) {
     std::uint32_t over = 0;
-    if (M == WideMode::any && crossing != 0 && job.tree.is_exact(job.tree.at(block.id))) {
-      const std::uint32_t stride = block.view.stride;
-      const LimitTest test(corner_row(block.view.at, stride, 0) + lane, stride);
-      const LimitTest::Bits known = decide_limits(test, job.rays, job.answers, first, crossing);
-      over = known.hit, left &= ~(known.hit | known.missed);
-      job.answers.found |= std::uint64_t{known.hit} << first;
+    if (crossing != 0 && job.tree.is_exact(job.tree.at(block.id))) {
+      const LimitTest::Bits known = LimitTest(block.view, lane).decide(job, first, crossing);
+      left &= ~known.missed;
+      if (M == WideMode::any) over = known.hit, left &= ~known.hit;
+      if (M == WideMode::any) job.answers.found |= std::uint64_t{known.hit} << first;
     }
     for (; left != 0; left &= left - 1) {
       const auto i = static_cast<std::uint32_t>(__builtin_ctz(left));

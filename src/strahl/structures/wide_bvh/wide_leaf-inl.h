@@ -114,11 +114,19 @@ class LeafTest {
   }
   HWY_INLINE hn::Mask<D> is_certain(const Values& r, V lower) const {
     const V t_error = hn::Neg(r.t_error);
-    const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+    const auto behind = has_begun(r);
     const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
     return hn::And(hn::And(is_inside(r), behind), before);
   }
 
+  /// Lanes that are certainly behind t_min, if they are crossed.
+  HWY_INLINE hn::Mask<D> has_begun(const Values& r) const {
+    return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+  }
+  /// Lanes that are certainly crossed, and not certainly behind t_min.
+  HWY_INLINE std::uint32_t at_begin(const Values& r) const {
+    return inside(r) & ~bits_of(D(), has_begun(r)) & r.possible;
+  }
   /// Lanes that are certainly crossed, wherever.
   HWY_INLINE static hn::Mask<D> is_inside(const Values& r) {
     const V error = hn::Neg(r.error);

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <strahl/structures/wide_bvh/wide_expand-inl.h>
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 #include <strahl/structures/wide_bvh/wide_node-inl.h>
 
@@ -37,8 +38,9 @@ class LimitTest {
   using V = hn::Vec<D>;
   static constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(D()));
 
-  /// @param corner its nine coordinates, one every `stride` floats
-  LimitTest(const float* corner, std::size_t stride) {
+  LimitTest(const BlockView& block, std::uint32_t lane) {
+    const std::size_t stride = block.stride;
+    const float* corner = corner_row(block.at, block.stride, 0) + lane;
     double ab[3], ac[3], ab_most = 0, ac_most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       a_[i] = double{corner[i * stride]};
@@ -57,7 +59,36 @@ class LimitTest {
   struct Bits {
     std::uint32_t hit, missed;
   };
-  /// @param first of as many rays as a register has lanes, all of which cross the triangle's inside
+  /// Of these rays (bits from `first` on), all of which certainly cross the triangle.
+  HWY_INLINE Bits decide(const WideJob& job, std::uint32_t first, std::uint32_t crossing) const {
+    constexpr std::uint32_t kPart = (1u << kLanes) - 1;
+    Bits all{0, 0};
+    for (std::uint32_t i = 0; i < kWideMaxLanes; i += kLanes) {
+      if ((crossing >> i & kPart) == 0) continue;
+      const Bits part = run(job.rays, job.answers, first + i);
+      all.hit |= part.hit << i, all.missed |= part.missed << i;
+    }
+    return {all.hit & crossing, all.missed & crossing};
+  }
+
+ private:
+  /// The frame's t.
+  struct Quotient {
+    V numerator, denominator, numerator_error, denominator_error;
+
+    HWY_INLINE hn::Mask<D> is_above(V limit) const {
+      return hn::Gt(hn::NegMulAdd(limit, denominator, numerator), error(limit));
+    }
+    HWY_INLINE hn::Mask<D> is_below(V limit) const {
+      return hn::Gt(hn::MulSub(limit, denominator, numerator), error(limit));
+    }
+    HWY_INLINE V error(V limit) const {
+      const V share = hn::MulAdd(hn::Set(D(), 0x1p-39), denominator, denominator_error);
+      return hn::MulAdd(hn::Abs(limit), share, numerator_error);
+    }
+  };
+
+  /// As many rays as a register has lanes.
   HWY_INLINE Bits run(const WideRays& rays, const WideAnswers& answers, std::uint32_t first) const {
     V numerator = hn::Zero(D()), denominator = numerator, distance = numerator, length = numerator;
     for (int i = 0; i < 3; ++i) {
@@ -78,23 +109,6 @@ class LimitTest {
     return {bits_of(D(), hn::And(is_certain, counts)), bits_of(D(), hn::And(is_certain, is_out))};
   }
 
- private:
-  /// The frame's t.
-  struct Quotient {
-    V numerator, denominator, numerator_error, denominator_error;
-
-    HWY_INLINE hn::Mask<D> is_above(V limit) const {
-      return hn::Gt(hn::NegMulAdd(limit, denominator, numerator), error(limit));
-    }
-    HWY_INLINE hn::Mask<D> is_below(V limit) const {
-      return hn::Gt(hn::MulSub(limit, denominator, numerator), error(limit));
-    }
-    HWY_INLINE V error(V limit) const {
-      const V share = hn::MulAdd(hn::Set(D(), 0x1p-39), denominator, denominator_error);
-      return hn::MulAdd(hn::Abs(limit), share, numerator_error);
-    }
-  };
-
   HWY_INLINE static V load(const float* row) {
     return hn::PromoteTo(D(), hn::Load(hn::Rebind<float, D>(), row));
   }
@@ -102,20 +116,6 @@ class LimitTest {
   double a_[3], n_[3];
   double unit_;  ///< error of a product with n, per length of the other factor
 };
-
-/// The same for more rays, bits from `first` on.
-HWY_INLINE LimitTest::Bits decide_limits(const LimitTest& test, const WideRays& rays,
-                                         const WideAnswers& answers, std::uint32_t first,
-                                         std::uint32_t crossing) {
-  constexpr std::uint32_t kPart = (1u << LimitTest::kLanes) - 1;
-  LimitTest::Bits all{0, 0};
-  for (std::uint32_t i = 0; crossing >> i != 0; i += LimitTest::kLanes) {
-    if ((crossing >> i & kPart) == 0) continue;
-    const LimitTest::Bits part = test.run(rays, answers, first + i);
-    all.hit |= part.hit << i, all.missed |= part.missed << i;
-  }
-  return {all.hit & crossing, all.missed & crossing};
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace strahl
