@@ -16,16 +16,19 @@ struct Corner {
   Vec3d at(double u, double v) const { return a + u / 8 * ab + v / 8 * ac; }
 };
 
-/// Of integers of 22 bits, so that points between the corners are floats that lie exactly in the
+/// Brings integers into a size for which trees keep a scene's coordinates.
+constexpr double kUnit = 0x1p-10;
+
+/// Of integers of 23 bits, so that points between the corners are floats that lie exactly in the
 /// plane, while its equation is rounded in doubles.
 std::vector<Corner> some_corners() {
   std::mt19937 random(7);
-  std::uniform_int_distribution<int> steps(-(1 << 17), 1 << 17);
+  std::uniform_int_distribution<int> steps(-(1 << 19), 1 << 19);
   const auto some = [&](double step) {
     return step * Vec3d{double(steps(random)), double(steps(random)), double(steps(random))};
   };
   std::vector<Corner> corners(60);
-  for (Corner& c : corners) c = {some(16.0), some(8.0), some(8.0)};
+  for (Corner& c : corners) c = {some(8 * kUnit), some(8 * kUnit), some(8 * kUnit)};
   return corners;
 }
 
@@ -46,7 +49,7 @@ std::shared_ptr<const Scene> scene_of(const std::vector<Corner>& corners) {
 void add_block(const Corner& corner, double t, float t_min, float t_max, bool all_ways,
                FloatRaySet& rays) {
   for (int i = 0; i < 64; ++i) {
-    const double side = all_ways && i % 2 != 0 ? -1.0 : 1.0;
+    const double side = all_ways && i % 2 != 0 ? -kUnit : kUnit;
     const Vec3d dir = side * Vec3d{double(3 + i % 5), double(1 + i % 2), double(2 + i % 4)};
     const Vec3d org = corner.at(1 + i % 3, 1 + i / 3 % 4) - t * dir;
     rays.records.push_back({Vec3f(org), t_min, Vec3f(dir), t_max});
