@@ -62,15 +62,17 @@ struct SpanJob {
 };
 
 /// Tells the progress of a batch, also within a span of slow rays, so that it can be cancelled
-/// there. Costs a clock reading every 16 rays.
+/// there. Costs a clock reading every 16 rays, or as many as are said.
 class Pulse {
  public:
-  explicit Pulse(const SpanJob& job) : job_(job), told_(job.begin) {}
-  /// To be called before each ray of the span, ascending, and with its end.
+  explicit Pulse(const SpanJob& job, std::size_t rays = 16)
+      : job_(job), rays_(rays), told_(job.begin) {}
+  /// To be called before each ray of the span, or those that are multiples of 16, ascending, and
+  /// with its end.
   /// Throws Error{cancelled}.
   void beat(std::size_t ray) {
     constexpr double kSeconds = 0.05;
-    if (ray < job_.end && (ray % 16 != 0 || since_.seconds() < kSeconds)) return;
+    if (ray < job_.end && (ray % rays_ != 0 || since_.seconds() < kSeconds)) return;
     const std::size_t done = job_.done.fetch_add(ray - told_) + ray - told_;
     told_ = ray;
     since_.restart();
@@ -80,7 +82,7 @@ class Pulse {
 
  private:
   const SpanJob& job_;
-  std::size_t told_;
+  std::size_t rays_, told_;
   Timer since_;
 };
 

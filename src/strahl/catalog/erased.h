@@ -217,7 +217,7 @@ class Erased final : public Accelerator {
   template <class Fast, class T, class Slow>
   static void answer_blocks(const SpanJob& job, BatchReport& report, Fast& fast, T* out,
                             Slow slow) {
-    Pulse pulse(job);
+    Pulse pulse(job, 4 * Fast::kBlock);
     for (std::size_t i = job.begin, n; i < job.end; i += n) {
       pulse.beat(i);
       n = std::min(Fast::kBlock - i % Fast::kBlock, job.end - i);

@@ -14,6 +14,7 @@
 #define STRAHL_WIDE_FLIGHT_INL_H_
 #endif
 
+#include <strahl/structures/wide_bvh/wide_limits-inl.h>
 #include <strahl/structures/wide_bvh/wide_traverse-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -113,7 +114,11 @@ class Flight {
       const float upper = job_.answers.upper[ray];
       leaf_test.test(block, 0, hn::Set(D(), upper), values);
       if (values.possible != 0) {
-        if (Taker<W, M>(job_, ray).take(id, 0, leaf_test, values)) {
+        const std::uint32_t crossed = leaf_test.at_begin(values);
+        if (HWY_UNLIKELY(crossed != 0) && job_.tree.is_exact(at))
+          values.possible = still_possible(job_, ray, block, values.possible, crossed);
+        if ((M == WideMode::any && job_.answers.is_found(ray)) ||
+            (values.possible != 0 && Taker<W, M>(job_, ray).take(id, 0, leaf_test, values))) {
           ended_ |= std::uint64_t{1} << ray;
           continue;
         }
@@ -122,6 +127,24 @@ class Flight {
       go_to(ray, stacks_.at(--top_[ray]), places_, n);
     }
     at_nodes_ = n.nodes, at_leaves_ = n.leaves;
+  }
+
+  /// Of lanes that may be hit those that still may be when the ones crossed are asked in doubles
+  /// whether they count; of any hits only the first that certainly does, and that is found.
+  HWY_NOINLINE static std::uint32_t still_possible(WideJob& job, std::uint32_t ray,
+                                                   const BlockView block, std::uint32_t possible,
+                                                   std::uint32_t crossed) {
+    const std::uint32_t place = ray % kWideMaxLanes;
+    for (; crossed != 0; crossed &= crossed - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(crossed));
+      const auto known = LimitTest(block, lane).decide(job, ray - place, 1u << place);
+      if (M == WideMode::any && known.hit != 0) {
+        job.answers.found |= std::uint64_t{1} << ray;
+        return 0;
+      }
+      if (known.missed != 0) possible &= ~(1u << lane);
+    }
+    return possible;
   }
 
   /// What waits behind the answer's upper bound, if that is no longer `before`.

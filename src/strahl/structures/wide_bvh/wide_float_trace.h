@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include <strahl/query/reference_test.h>
+#include <strahl/structures/wide_bvh/wide_ids.h>
 #include <strahl/structures/wide_bvh/wide_trace.h>
 
 namespace strahl {
@@ -32,6 +35,7 @@ class WideFloatTrace {
       : tree_(tree),
         kernel_(kernel),
         prims_(prims),
+        ids_(prims.scene()),
         given_(given),
         counters_(counters),
         traverse_(kernel.find(kMode, kIsCounted, tree.width)) {
@@ -47,17 +51,16 @@ class WideFloatTrace {
   /// The first hits of rays first .. first + count - 1, or whether they have any.
   /// @return bits of those that need doubles or are invalid: they are given as misses
   std::uint64_t run(std::size_t first, std::uint32_t count, Answer* answers) {
-    first_ = first, answers_ = answers;
+    first_ = first, answers_ = answers, decided_ = 0;
     const auto reach = static_cast<float>(tree_.frame.reach);
     const std::uint64_t suited = kernel_.prepare(rays_, given_, first, count, reach);
     prefetch(first + count);
     known_.begin(rays_.upper, rays_.lower);
-    std::fill_n(answers, count, Answer{});
     WideJob job{tree_, rays_, known_, this, &resolve, {}, room_.get()};
     traverse_(job, suited);
     finish(count);
     add_counts(job.counts, counters_);
-    return ~suited & (~std::uint64_t{0} >> (kWideBlock - count));
+    return ~suited & all_of(count);
   }
 
  private:
@@ -79,15 +82,32 @@ class WideFloatTrace {
       __builtin_prefetch(written + i, 1);
   }
 
+  /// Answers not written yet.
   void finish(std::uint32_t count) {
     if constexpr (kIsAny) {
-      for (std::uint32_t i = 0; i < count; ++i) answers_[i] |= std::uint8_t{known_.is_found(i)};
+      const std::uint64_t found = known_.found | decided_;
+      std::uint32_t i = 0;
+      for (; i + 8 <= count; i += 8) put_bits(found >> i, answers_ + i);
+      for (; i < count; ++i) answers_[i] = std::uint8_t{(found >> i & 1u) != 0};
     } else {
-      settle_all();
+      std::uint64_t missed = ~(settle_all() | decided_) & all_of(count);
+      for (; missed != 0; missed &= missed - 1) answers_[std::countr_zero(missed)] = Hit{};
     }
   }
+  /// The lowest eight as bytes: copied to each, the byte's own bit kept there, moved to its end.
+  /// Little-endian, as all of it is (base/hash.h).
+  static void put_bits(std::uint64_t bits, std::uint8_t* bytes) {
+    constexpr std::uint64_t kEach = 0x0101010101010101u;
+    const std::uint64_t own = (bits & 0xffu) * kEach & 0x8040201008040201u;
+    const std::uint64_t ends = (own + 0x7f * kEach) >> 7 & kEach;
+    std::memcpy(bytes, &ends, sizeof ends);
+  }
+  static std::uint64_t all_of(std::uint32_t count) {
+    return ~std::uint64_t{0} >> (kWideBlock - count);
+  }
 
-  void settle_all() {
+  /// @return bits of rays that had candidates
+  std::uint64_t settle_all() {
     alignas(64) double t[kWideBlock];
     WideSettled settled = kernel_.settle(tree_, rays_, known_, t);
     const bool has_all = tree_.has_exact_corners && tree_.layout == WideLayout::full;
@@ -98,6 +118,7 @@ class WideFloatTrace {
     }
     for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
       settle(static_cast<std::uint32_t>(std::countr_zero(rest)));
+    return settled.certain | settled.left;
   }
 
   /// The canonical t of candidates left whose corners are the scene's only.
@@ -129,17 +150,18 @@ class WideFloatTrace {
     const WideDecision decision = decide_lanes(i, leaf, lanes);
     if ((decision.crossed | decision.left) == 0) return false;
     if constexpr (!kIsAny)
-      if (known_.candidate[i] != 0) settle(i);
+      if (known_.candidate[i] != 0) settle(i), decided_ |= std::uint64_t{1} << i;
     const Ray ray = given_ray(i);
     Q query(ray, HitFilter{});
-    if constexpr (!kIsAny) query.best = answers_[i];
+    if constexpr (!kIsAny)
+      if (is_decided(i)) query.best = answers_[i];
     if (!offer_crossed(ray, leaf, decision, query) && decision.left != 0)
       offer(i, ray, leaf, decision.left, query);
     if constexpr (kIsAny) {
-      answers_[i] = std::uint8_t{query.found};
+      decided_ |= std::uint64_t{query.found} << i;
       return query.found;
     } else {
-      answers_[i] = query.best;
+      answers_[i] = query.best, decided_ |= std::uint64_t{1} << i;
       narrow(i, query.best.t * double{rays_.per_t[i]});
       return false;
     }
@@ -212,8 +234,11 @@ class WideFloatTrace {
 
   void take_candidate(std::uint32_t i, double t) {
     const std::uint32_t reference = known_.reference[i];
-    answers_[i] = {t, prims_.blank_hit(reference).id, known_.is_front(i), reference};
+    Hit& hit = answers_[i];
+    hit.t = t, ids_.put(reference, hit.id);
+    hit.is_front = known_.is_front(i), hit.reference = reference;
   }
+  bool is_decided(std::uint32_t i) const { return (decided_ >> i & 1u) != 0; }
 
   /// The candidate with its canonical t.
   void settle(std::uint32_t i) {
@@ -232,12 +257,14 @@ class WideFloatTrace {
   const WideTree& tree_;
   const WideKernel& kernel_;
   Prims& prims_;
+  WideIds ids_;
   const FloatRays& given_;
   C& counters_;
   WideTraverse traverse_;
   std::unique_ptr<float[]> room_;
   std::size_t first_ = 0;
   Answer* answers_ = nullptr;
+  std::uint64_t decided_ = 0;  ///< bits: the answer is from the exact test; any: it is found by it
   std::size_t prepared_index_ = kNone;
   std::optional<PreparedRay> prepared_;
   WideRays rays_;

@@ -110,18 +110,35 @@ class LeafTest {
 
   /// Lanes that are certainly crossed, certainly behind t_min and certainly before `lower`.
   HWY_INLINE std::uint32_t certain(const Values& r, V lower) const {
-    const V error = hn::Neg(r.error), t_error = hn::Neg(r.t_error);
-    const auto inside =
-        hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
-    const auto behind = hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+    return bits_of(D(), is_certain(r, lower)) & r.possible;
+  }
+  HWY_INLINE hn::Mask<D> is_certain(const Values& r, V lower) const {
+    const V t_error = hn::Neg(r.t_error);
+    const auto behind = has_begun(r);
     const auto before = hn::Lt(hn::Add(r.t, t_error), hn::Mul(lower, r.det));
-    return bits_of(D(), hn::And(hn::And(inside, behind), before)) & r.possible;
+    return hn::And(hn::And(is_inside(r), behind), before);
   }
 
+  /// Lanes that are certainly behind t_min, if they are crossed.
+  HWY_INLINE hn::Mask<D> has_begun(const Values& r) const {
+    return hn::Gt(hn::Add(r.t, r.t_error), hn::Mul(enter_sure_, r.det));
+  }
+  /// Lanes that are certainly crossed, and not certainly behind t_min.
+  HWY_INLINE std::uint32_t at_begin(const Values& r) const {
+    return inside(r) & ~bits_of(D(), has_begun(r)) & r.possible;
+  }
+  /// Lanes that are certainly crossed, wherever.
+  HWY_INLINE static hn::Mask<D> is_inside(const Values& r) {
+    const V error = hn::Neg(r.error);
+    return hn::And(hn::And(hn::Gt(r.u, error), hn::Gt(r.v, error)), hn::Gt(r.w, error));
+  }
+  HWY_INLINE static std::uint32_t inside(const Values& r) { return bits_of(D(), is_inside(r)); }
+
   /// Lanes hit from behind, if they are hit.
-  HWY_INLINE static std::uint32_t backs(const Values& r) {
+  HWY_INLINE static std::uint32_t backs(const Values& r) { return backs(r.det_sign); }
+  HWY_INLINE static std::uint32_t backs(V det_sign) {
     const typename L::DI di;
-    return bits_of(di, hn::Lt(hn::BitCast(di, r.det_sign), hn::Zero(di)));
+    return bits_of(di, hn::Lt(hn::BitCast(di, det_sign), hn::Zero(di)));
   }
 
   /// Where certain lanes are hit.

@@ -18,6 +18,7 @@
 
 #include <strahl/structures/wide_bvh/wide_beam-inl.h>
 #include <strahl/structures/wide_bvh/wide_flight-inl.h>
+#include <strahl/structures/wide_bvh/wide_group-inl.h>
 #include <strahl/structures/wide_bvh/wide_pencil-inl.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -46,13 +47,14 @@ class Packet {
  private:
   using L = WideLanes<W>;
   using D = typename L::D;
-  using Leaf = LeafTest<W>;
   static constexpr std::uint32_t kLanes = static_cast<std::uint32_t>(L::kLanes);
   static constexpr std::uint64_t kGroup = (std::uint64_t{1} << kLanes) - 1;
   /// A child costs a packet what it costs so many rays to visit a node, more where the rays are of
   /// several octants; a ray's test of a block costs as many tests of a triangle by a register.
-  /// With registers of 8 rays more so.
-  static constexpr int kRaysPerChild = 3, kMixedRaysPerChild = kCompresses ? 5 : 12;
+  /// With registers of 8 rays more so, but less where all begin at one point.
+  static constexpr int kRaysPerChild = kCompresses ? 3 : 10;
+  static constexpr int kPencilRaysPerChild = kCompresses ? 3 : 6;
+  static constexpr int kMixedRaysPerChild = kCompresses ? 5 : 12;
   static constexpr int kTrianglesPerTest = 4;
 
   /// A child that the beam may meet. Its box is in its parent.
@@ -85,12 +87,16 @@ class Packet {
            kTrianglesPerTest * static_cast<std::uint32_t>(__builtin_popcountll(rays));
   }
 
+  int rays_per_child() const {
+    if (!beam_.has_one_octant()) return kMixedRaysPerChild;
+    return beam_.has_one_origin() ? kPencilRaysPerChild : kRaysPerChild;
+  }
+
   void divide(WideId id, std::uint64_t rays) {
     const std::byte* node = job_.tree.at(id);
     typename NodeTest<W>::Hits hits;
     beam_.test(node, hn::Set(D(), farthest_), hits);
-    const int dear = beam_.has_one_octant() ? kRaysPerChild : kMixedRaysPerChild;
-    if (dear * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
+    if (rays_per_child() * __builtin_popcount(hits.bits) > __builtin_popcountll(rays))
       return hand_over(id, rays);
     alignas(64) float enter[W];
     hn::Store(hits.enter[0], D(), enter);
@@ -137,83 +143,23 @@ class Packet {
 
   template <bool kIsPencil>
   void test_block(WideId id, std::uint64_t rays) {
-    typename Leaf::Pencil pencil;
     ExpandedBlock<W> room;
-    const BlockView block = view<W>(job_.tree.at(id), lanes_of(id), room);
-    std::uint32_t triangles = (2u << (block.lanes - 1)) - 1;
+    SeenBlock<W> block;
+    block.id = id, block.view = view<W>(job_.tree.at(id), lanes_of(id), room);
+    std::uint32_t triangles = (2u << (block.view.lanes - 1)) - 1;
     if constexpr (kIsPencil) {
-      Leaf(job_.rays, 0).project(block, pencil);
-      triangles &= cull_.lanes(pencil);
+      LeafTest<W>(job_.rays, 0).project(block.view, block.pencil);
+      triangles &= cull_.lanes(block.pencil);
     }
     bool is_shorter = false;
     for (std::uint32_t first = 0; first < kWideBlock; first += kLanes) {
-      auto group = static_cast<std::uint32_t>(rays >> first & kGroup);
-      if (group != 0)
-        is_shorter |= test_group<kIsPencil>(id, block, first, group, triangles, pencil);
+      const auto reaching = static_cast<std::uint32_t>(rays >> first & kGroup);
+      if (reaching == 0) continue;
+      Group<W, M> group(job_, first, reaching);
+      is_shorter |= group.template run<kIsPencil>(block, triangles);
+      if (M == WideMode::any) end(std::uint64_t{reaching & ~group.rays()} << first);
     }
     if (is_shorter) find_farthest();
-  }
-
-  /// Whether any ray of the group has become shorter.
-  template <bool kIsPencil>
-  HWY_INLINE bool test_group(WideId id, const BlockView& block, std::uint32_t first,
-                             std::uint32_t group, std::uint32_t triangles,
-                             const typename Leaf::Pencil& pencil) {
-    const Leaf test(job_.rays, first, typename Leaf::RayPerLane());
-    bool is_shorter = false;
-    for (; triangles != 0 && group != 0; triangles &= triangles - 1) {
-      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(triangles));
-      typename Leaf::Values values;
-      const auto upper = hn::Load(D(), answers_.upper + first);
-      if constexpr (kIsPencil)
-        test.test_projected(pencil, lane, upper, values);
-      else
-        test.test_one(block, lane, upper, values);
-      values.possible &= group;
-      if (values.possible == 0) continue;
-      group &= ~take(id, lane, first, test, values);
-      is_shorter = true;
-    }
-    return is_shorter;
-  }
-
-  /// Certain hits become candidates, the others are resolved.
-  /// @return lanes whose rays are at their end
-  std::uint32_t take(WideId id, std::uint32_t lane, std::uint32_t first, const Leaf& test,
-                     const typename Leaf::Values& values) {
-    const std::uint32_t certain = test.certain(values, hn::Load(D(), answers_.lower + first));
-    std::uint32_t ended = 0;
-    if (certain != 0) {
-      if constexpr (M == WideMode::closest)
-        keep(id, lane, first, test, values, certain);
-      else
-        answers_.found |= std::uint64_t{certain} << first, ended = certain;
-    }
-    for (std::uint32_t rest = values.possible & ~certain; rest != 0; rest &= rest - 1) {
-      const auto i = static_cast<std::uint32_t>(__builtin_ctz(rest));
-      const bool is_over = Taker<W, M>(job_, first + i).resolve_others(id, 0, 1u << lane);
-      ended |= std::uint32_t{is_over} << i;
-    }
-    end(std::uint64_t{ended} << first);
-    return ended;
-  }
-
-  /// Certain hits before all that is known.
-  HWY_INLINE void keep(WideId id, std::uint32_t lane, std::uint32_t first, const Leaf& test,
-                       const typename Leaf::Values& values, std::uint32_t certain) {
-    const hn::RebindToUnsigned<D> du;
-    const auto mask = mask_of(D(), certain);
-    const auto whole = hn::RebindMask(du, mask);
-    typename L::V lower, upper;
-    test.span(values, lower, upper);
-    hn::BlendedStore(upper, mask, D(), answers_.upper + first);
-    hn::BlendedStore(lower, mask, D(), answers_.lower + first);
-    const std::uint32_t reference = reference_row(job_.tree.at(id), lanes_of(id))[lane];
-    hn::BlendedStore(hn::Set(du, id), whole, du, answers_.candidate + first);
-    hn::BlendedStore(hn::Set(du, lane), whole, du, answers_.lane + first);
-    hn::BlendedStore(hn::Set(du, reference), whole, du, answers_.reference + first);
-    const std::uint64_t front = certain & ~Leaf::backs(values);
-    answers_.fronts = (answers_.fronts & ~(std::uint64_t{certain} << first)) | front << first;
   }
 
   void hand_over(WideId id, std::uint64_t rays) {
