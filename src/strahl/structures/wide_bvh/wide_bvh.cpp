@@ -7,6 +7,7 @@
 #include <strahl/build/float_tree.h>
 #include <strahl/build/linked_tree.h>
 #include <strahl/build/optimise.h>
+#include <strahl/build/reinsert_top.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_estimate.h>
@@ -79,10 +80,15 @@ BinaryTree divide_floats(const PrimitiveSource& source, const WideBvhOptions& op
   context.require_memory((refs.count + refs.spare) *
                              (sizeof(FloatRef) + float_tree_bytes(rules) + tree_bytes(wide.width)),
                          "wide_bvh");
-  binary.tree = is_fast
-                    ? build_float_tree(refs.refs(), rules, context)
-                    : build_cut_float_tree(refs.with_spare(), refs.count, rules, FloatCutRules(),
-                                           WideThings(source, binary.frame), context);
+  if (is_fast) {
+    binary.tree = build_float_tree(refs.refs(), rules, context);
+    return binary;
+  }
+  binary.tree = build_cut_float_tree(refs.with_spare(), refs.count, rules, FloatCutRules(),
+                                     WideThings(source, binary.frame), context);
+  TopRules top;
+  top.max_depth = kWideMaxDepth;
+  binary.tree = reinsert_top(std::move(binary.tree), top, context);
   return binary;
 }
 
