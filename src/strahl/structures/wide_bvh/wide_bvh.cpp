@@ -86,6 +86,7 @@ BinaryTree divide_floats(const PrimitiveSource& source, const WideBvhOptions& op
   }
   binary.tree = build_cut_float_tree(refs.with_spare(), refs.count, rules, FloatCutRules(),
                                      WideThings(source, binary.frame), context);
+  refs.room.reset();  // what follows needs the memory
   TopRules top;
   top.max_depth = kWideMaxDepth;
   binary.tree = reinsert_top(std::move(binary.tree), top, context);
