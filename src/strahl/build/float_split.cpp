@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include <strahl/build/float_split.h>
@@ -149,12 +150,12 @@ FloatSplit FloatSplitter::find(const FloatSet& set) const {
   return split;
 }
 
-std::pair<FloatSet, FloatSet> FloatSplitter::divide(const FloatSet& set,
-                                                    const FloatSplit& split) const {
+std::pair<FloatSet, FloatSet> FloatSplitter::divide(const FloatSet& set, const FloatSplit& split,
+                                                    std::uint32_t gap) const {
   const float least = set.centers.lo[split.axis];
-  FloatRef* const to = arrays_[!set.in_second].data();
+  FloatRef* const to = target(set);
   const std::uint32_t middle = set.begin + split.left_count;
-  std::uint32_t next_left = set.begin, next_right = middle;
+  std::uint32_t next_left = set.begin, next_right = middle + gap;
   FloatBox left = FloatBox::empty(), right = FloatBox::empty();
   for (const FloatRef& ref : refs_of(set)) {
     const bool is_left = (ref.doubled_center(split.axis) - least) * split.scale < split.first_right;
@@ -168,30 +169,32 @@ std::pair<FloatSet, FloatSet> FloatSplitter::divide(const FloatSet& set,
     right.extend({nan_where(center, goes_left), nan_where(-center, goes_left)});
   }
   return {{set.begin, middle, !set.in_second, split.left, left},
-          {middle, set.end, !set.in_second, split.right, right}};
+          {middle + gap, set.end + gap, !set.in_second, split.right, right}};
 }
 
-std::pair<FloatSet, FloatSet> FloatSplitter::halve(const FloatSet& set) const {
+std::pair<FloatSet, FloatSet> FloatSplitter::halve(const FloatSet& set, std::uint32_t gap) const {
   const Float4 extent = set.centers.extent();
   const int axis = extent[0] >= extent[1] && extent[0] >= extent[2] ? 0
                    : extent[1] >= extent[2]                         ? 1
                                                                     : 2;
-  using Key = std::pair<float, std::uint32_t>;
+  using Key = std::tuple<float, std::uint32_t, std::size_t>;
   std::vector<Key> keys;
   keys.reserve(set.size());
   for (const FloatRef& ref : refs_of(set))
-    keys.emplace_back(ref.doubled_center(axis), ref.reference);
+    keys.emplace_back(ref.doubled_center(axis), ref.reference, keys.size());
   const auto half = keys.begin() + static_cast<std::ptrdiff_t>(keys.size() / 2);
   std::nth_element(keys.begin(), half, keys.end());
   const auto middle = set.begin + static_cast<std::uint32_t>(set.size() / 2);
-  FloatSet sides[2] = {{set.begin, middle, !set.in_second, FloatBox::empty(), FloatBox::empty()},
-                       {middle, set.end, !set.in_second, FloatBox::empty(), FloatBox::empty()}};
-  std::uint32_t next[2] = {set.begin, middle};
+  const FloatBox none = FloatBox::empty();
+  FloatSet sides[2] = {{set.begin, middle, !set.in_second, none, none},
+                       {middle + gap, set.end + gap, !set.in_second, none, none}};
+  std::uint32_t next[2] = {sides[0].begin, sides[1].begin};
+  std::size_t place = 0;
   for (const FloatRef& ref : refs_of(set)) {
-    const bool is_right = !(Key{ref.doubled_center(axis), ref.reference} < *half);
+    const bool is_right = !(Key{ref.doubled_center(axis), ref.reference, place++} < *half);
     const Float4 center = ref.box().doubled_center();
     sides[is_right].box.extend(ref.box()), sides[is_right].centers.extend({center, -center});
-    arrays_[!set.in_second][next[is_right]++] = ref;
+    target(set)[next[is_right]++] = ref;
   }
   return {sides[0], sides[1]};
 }

@@ -57,10 +57,14 @@ class FloatSplitter {
 
   /// The cheapest division into two parts by bins. O(n).
   FloatSplit find(const FloatSet& set) const;
-  std::pair<FloatSet, FloatSet> divide(const FloatSet& set, const FloatSplit& split) const;
-  /// Halves by the order of centres on the longest axis of their box, then of references. O(n)
-  /// expected.
-  std::pair<FloatSet, FloatSet> halve(const FloatSet& set) const;
+  /// @param gap places of the array left free between the two sides; the caller has them
+  std::pair<FloatSet, FloatSet> divide(const FloatSet& set, const FloatSplit& split,
+                                       std::uint32_t gap = 0) const;
+  /// Halves by the order of centres on the longest axis of their box, then of references, then of
+  /// places: parts of one thing have one reference. O(n) expected.
+  std::pair<FloatSet, FloatSet> halve(const FloatSet& set, std::uint32_t gap = 0) const;
+  /// The array into which a set is divided.
+  FloatRef* target(const FloatSet& set) const { return arrays_[!set.in_second].data(); }
 
  private:
   std::span<FloatRef> refs(const FloatSet& set, bool second) const {

@@ -100,6 +100,7 @@ TEST(FloatSplit, FindsTheCheapestDivisionAndCarriesItOut) {
         EXPECT_NEAR(cost_of(splitter.refs_of(left)) + cost_of(splitter.refs_of(right)), best,
                     1e-5 * best);
         EXPECT_EQ(left.size(), split.left_count);
+        EXPECT_EQ(right.begin, left.end);
         std::uint32_t weight = 0;
         for (const FloatRef& ref : splitter.refs_of(left)) weight += ref.weight;
         EXPECT_EQ(weight, split.left_weight);
@@ -121,6 +122,21 @@ TEST(FloatSplit, HalvesByTheOrderOfCentres) {
     EXPECT_LE(low.hi[whole.centers.box().longest_axis()],
               high.lo[whole.centers.box().longest_axis()]);
   }
+}
+
+/// Parts of one thing have one reference, and may have one centre.
+TEST(FloatSplit, HalvesReferencesThatRepeatAndLeavesAGap) {
+  std::vector<FloatRef> refs, room(120);
+  for (std::uint32_t i = 0; i < 100; ++i)
+    refs.push_back(ref_of({Vec3d::all(-1.0 - i), Vec3d::all(1.0 + i)}, 7));
+  refs.resize(120);
+  const FloatSplitter splitter(refs, room, 8, false);
+  const auto [left, right] = splitter.halve(splitter.bounded(0, 100), 20);
+  expect_bounded(splitter, left), expect_bounded(splitter, right);
+  EXPECT_EQ(left.size(), 50u);
+  EXPECT_EQ(right.begin, 70u);
+  EXPECT_EQ(right.size(), 50u);
+  EXPECT_EQ(right.box.box().hi, Vec3d::all(100.0));
 }
 
 TEST(FloatSplit, FindsNoneWhereCentresCoincide) {

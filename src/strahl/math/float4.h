@@ -66,4 +66,10 @@ inline Float4 half_areas(const FloatBox (&boxes)[3]) {
   return x * y + y * z + z * x;
 }
 
+/// Half the surface area of one box that is not empty.
+inline float half_area(const FloatBox& box) {
+  const Float4 e = box.extent();
+  return e[0] * e[1] + e[1] * e[2] + e[2] * e[0];
+}
+
 }  // namespace strahl

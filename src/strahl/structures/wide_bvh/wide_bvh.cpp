@@ -7,6 +7,7 @@
 #include <strahl/build/float_tree.h>
 #include <strahl/build/linked_tree.h>
 #include <strahl/build/optimise.h>
+#include <strahl/build/reinsert_top.h>
 #include <strahl/build/spatial_tree.h>
 #include <strahl/structures/wide_bvh/wide_bvh.h>
 #include <strahl/structures/wide_bvh/wide_estimate.h>
@@ -57,28 +58,44 @@ struct BinaryTree {
   bool all_floats = false;
 };
 
-/// Divides things only, in boxes of floats.
-BinaryTree divide_things(const PrimitiveSource& source, WideQuality quality,
+/// References there may be more than things, per thing, where the default cuts them: for 56 bytes
+/// per triangle and 36 in compact blocks. Compact trees of 8 children need these without any cut.
+double growth_of(const WideBvhOptions& options, int width) {
+  return options.layout == WideLayout::compact && width == 8 ? 0.0 : 0.12;
+}
+
+/// In boxes of floats.
+BinaryTree divide_floats(const PrimitiveSource& source, const WideBvhOptions& options,
                          const CollapseRules& wide, const BuildContext& context) {
-  WideRefs refs = make_wide_refs(source, context);
+  const bool is_fast = options.quality == WideQuality::fast;
+  const double growth = is_fast ? 0.0 : growth_of(options, wide.width);
+  WideRefs refs = make_wide_refs(source, context, growth);
   BinaryTree binary{{}, refs.frame, {}, refs.all_floats};
   if (refs.count == 0) return binary;
-  const bool is_fast = quality == WideQuality::fast;
   FloatTreeRules rules;
   rules.bins = is_fast ? 8 : 32, rules.max_depth = kWideMaxDepth;
   // So few make a block anyway.
   rules.undivided = std::min<std::size_t>(is_fast ? 8 : 3, wide.max_leaf);
   if (is_fast) rules.cluster = 16, rules.opened = 512;
-  context.require_memory(
-      refs.count * (sizeof(FloatRef) + float_tree_bytes(rules) + tree_bytes(wide.width)),
-      "wide_bvh");
-  binary.tree = build_float_tree(refs.refs(), rules, context);
+  context.require_memory((refs.count + refs.spare) *
+                             (sizeof(FloatRef) + float_tree_bytes(rules) + tree_bytes(wide.width)),
+                         "wide_bvh");
+  if (is_fast) {
+    binary.tree = build_float_tree(refs.refs(), rules, context);
+    return binary;
+  }
+  binary.tree = build_cut_float_tree(refs.with_spare(), refs.count, rules, FloatCutRules(),
+                                     WideThings(source, binary.frame), context);
+  refs.room.reset();  // what follows needs the memory
+  TopRules top;
+  top.max_depth = kWideMaxDepth;
+  binary.tree = reinsert_top(std::move(binary.tree), top, context);
   return binary;
 }
 
-/// Cuts things, too, and moves nodes afterwards.
-BinaryTree cut_things(const PrimitiveSource& source, const CollapseRules& wide,
-                      const BuildContext& context) {
+/// In doubles; moves nodes afterwards.
+BinaryTree divide_doubles(const PrimitiveSource& source, const CollapseRules& wide,
+                          const BuildContext& context) {
   std::vector<PrimRef> refs = make_prim_refs(source, context);
   BinaryTree binary;
   if (refs.empty()) return binary;
@@ -126,8 +143,8 @@ WideBvh::WideBvh(const PrimitiveSource& source, const Options& options, const Bu
   rules.max_leaf = static_cast<std::size_t>(
       options.leaf_size > 0 ? std::min(options.leaf_size, rules.width) : rules.width);
   const BinaryTree binary = options.quality == WideQuality::high
-                                ? cut_things(source, rules, context)
-                                : divide_things(source, options.quality, rules, context);
+                                ? divide_doubles(source, rules, context)
+                                : divide_floats(source, options, rules, context);
   if (binary.tree.nodes.empty()) return;
   const Collapse collapse(binary.tree, rules, context);
   report_.sah_cost = built_cost_ = collapse.cost();

@@ -170,6 +170,22 @@ SceneData mixed_triangles() {
   return data;
 }
 
+TEST(WideBvh, TheDefaultCutsLongTrianglesAsFarAsMemoryAllows) {
+  const Scene scene(mixed_triangles());
+  for (const WideLayout layout : {WideLayout::full, WideLayout::compact})
+    for (const WideWidth width : {WideWidth::eight, WideWidth::sixteen}) {
+      WideBvhOptions options = with(WideQuality::balanced, width);
+      options.layout = layout;
+      const WideBvh bvh(scene, options, {});
+      EXPECT_NO_THROW(bvh.validate(scene));
+      const double growth = static_cast<double>(bvh.report().references) / scene.size();
+      if (layout == WideLayout::compact && width == WideWidth::eight)
+        EXPECT_EQ(growth, 1.0);
+      else
+        EXPECT_TRUE(growth > 1.01 && growth <= 1.12) << growth;
+    }
+}
+
 TEST(WideBvh, KnowsItsSizeBeforeItIsBuilt) {
   const Scene large(mixed_triangles()), small(random_triangles(500, 0.1, 9));
   for (const WideQuality quality : kQualities)

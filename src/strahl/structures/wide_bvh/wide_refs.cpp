@@ -31,10 +31,11 @@ class RefMaker {
         chunks_((source.size() + kChunk - 1) / kChunk),
         stores_floats_(source.stores_floats()) {}
 
-  WideRefs run() {
+  /// @param places of the array, as many as things at least
+  WideRefs run(std::size_t places) {
     WideRefs made;
-    made.room = std::make_unique_for_overwrite<FloatRef[]>(source_.size());
-    prefer_large_pages(made.room.get(), source_.size() * sizeof(FloatRef));
+    made.room = std::make_unique_for_overwrite<FloatRef[]>(places);
+    prefer_large_pages(made.room.get(), places * sizeof(FloatRef));
     fill(made.room.get(), made.frame);
     Aabb box;
     made.all_floats = true;
@@ -103,9 +104,17 @@ class RefMaker {
 
 }  // namespace
 
-WideRefs make_wide_refs(const PrimitiveSource& source, const BuildContext& context) {
-  context.require_memory(std::uint64_t{source.size()} * sizeof(FloatRef), "primitive references");
-  return RefMaker(source, context).run();
+WideRefs make_wide_refs(const PrimitiveSource& source, const BuildContext& context, double growth) {
+  const auto spare = [growth](std::size_t count) {
+    constexpr std::size_t kMost = 0x7fffffff;  // that builders can count
+    return std::min(static_cast<std::size_t>(growth * static_cast<double>(count)),
+                    kMost - std::min(kMost, count));
+  };
+  const std::size_t places = source.size() + spare(source.size());
+  context.require_memory(std::uint64_t{places} * sizeof(FloatRef), "primitive references");
+  WideRefs made = RefMaker(source, context).run(places);
+  made.spare = spare(made.count);
+  return made;
 }
 
 }  // namespace strahl

@@ -61,6 +61,31 @@ TEST(WideRefs, EnclosesWhatCanBeHitInAnyFrame) {
   }
 }
 
+TEST(WideRefs, LeaveRoomForCuts) {
+  const Scene scene = scene_at({5, 0, 0}, 1.0, 3000);
+  WideRefs made = make_wide_refs(scene, {}, 0.1);
+  EXPECT_EQ(made.count, 2000u);
+  EXPECT_EQ(made.with_spare().size(), 2200u);
+  EXPECT_EQ(make_wide_refs(scene, {}).with_spare().size(), 2000u);
+}
+
+TEST(WideThings, GiveCornersInTheFrame) {
+  const Scene scene = scene_at({1e9, -1e9, 0}, 1.0, 100);
+  const WideFrame frame = make_wide_refs(scene, {}).frame;
+  const WideThings things(scene, frame);
+  EXPECT_EQ(things.rounding(), frame.rounding());
+  EXPECT_EQ(things.reach(), frame.reach);
+  std::array<Vec3d, 3> corners;
+  TriangleVertices triangle;
+  for (std::uint32_t i = 0; i < scene.size(); ++i) {
+    ASSERT_EQ(things.corners(i, corners), scene.triangle(i, triangle));
+    if (!scene.triangle(i, triangle)) continue;
+    EXPECT_EQ(corners[0], frame.to_frame(triangle.a));
+    EXPECT_EQ(corners[1], frame.to_frame(triangle.b));
+    EXPECT_EQ(corners[2], frame.to_frame(triangle.c));
+  }
+}
+
 TEST(WideRefs, ClosesGapsTheSameWayForAnyNumberOfThreads) {
   if (!Executor::threads_available()) GTEST_SKIP() << "built without threads";
   const Scene scene = scene_at({5, 0, 0}, 1.0, 30'000);

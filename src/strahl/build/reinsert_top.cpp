@@ -1,0 +1,117 @@
+#include <utility>
+#include <vector>
+
+#include <strahl/build/reinsert_top.h>
+
+namespace strahl {
+namespace {
+
+constexpr std::uint32_t kNone = LinkedNode::kNone;
+
+/// The upper nodes of a tree; the references of its leaves are nodes of the tree, the roots of the
+/// subtrees that stay as they are.
+class TopOfTree {
+ public:
+  TopOfTree(const Tree& tree, std::uint32_t whole) : tree_(tree) {
+    const std::vector<std::uint32_t> sizes = count_references();
+    struct Waiting {
+      std::uint32_t node, parent;
+    };
+    std::vector<Waiting> waiting{{0, kNone}};
+    while (!waiting.empty()) {
+      const Waiting at = waiting.back();
+      waiting.pop_back();
+      const std::uint32_t place = add(at.node, at.parent);
+      if (tree.nodes[at.node].is_leaf() || sizes[at.node] <= whole) continue;
+      waiting.push_back({tree.nodes[at.node].right, place});
+      waiting.push_back({at.node + 1, place});
+    }
+  }
+
+  LinkedTree& linked() { return linked_; }
+
+  /// Overlap of the children of all nodes over the nodes' areas.
+  double overlap() const {
+    double common = 0.0, all = 0.0;
+    for (const LinkedNode& node : linked_.nodes) {
+      if (node.is_leaf()) continue;
+      common += Aabb::intersection(linked_.nodes[node.left].box, linked_.nodes[node.right].box)
+                    .half_area();
+      all += node.box.half_area();
+    }
+    return all > 0.0 ? common / all : 0.0;
+  }
+
+  /// The whole tree with its upper nodes as they are now.
+  Tree assemble() const {
+    const Tree order = make_tree(linked_);
+    Tree out;
+    out.nodes.reserve(tree_.nodes.size()), out.references.reserve(tree_.references.size());
+    std::vector<std::uint32_t> place(order.nodes.size());
+    for (std::size_t i = 0; i < order.nodes.size(); ++i) {
+      place[i] = static_cast<std::uint32_t>(out.nodes.size());
+      if (order.nodes[i].is_leaf())
+        copy(order.references[order.nodes[i].first], out);
+      else
+        out.nodes.push_back(order.nodes[i]);
+    }
+    for (std::size_t i = 0; i < order.nodes.size(); ++i)
+      if (!order.nodes[i].is_leaf()) out.nodes[place[i]].right = place[order.nodes[i].right];
+    return out;
+  }
+
+ private:
+  std::vector<std::uint32_t> count_references() const {
+    std::vector<std::uint32_t> sizes(tree_.nodes.size());
+    for (std::size_t i = sizes.size(); i-- > 0;) {
+      const TreeNode& node = tree_.nodes[i];
+      sizes[i] = node.is_leaf() ? node.count : sizes[i + 1] + sizes[node.right];
+    }
+    return sizes;
+  }
+
+  std::uint32_t add(std::uint32_t node, std::uint32_t parent) {
+    const auto place = static_cast<std::uint32_t>(linked_.nodes.size());
+    linked_.nodes.push_back({tree_.nodes[node].box, parent, kNone, node});
+    if (parent == kNone) return place;
+    LinkedNode& above = linked_.nodes[parent];
+    (above.left == kNone ? above.left : above.right) = place;
+    return place;
+  }
+
+  void copy(std::uint32_t from, Tree& out) const {
+    const auto to = static_cast<std::uint32_t>(out.nodes.size());
+    std::uint32_t last = from;
+    while (!tree_.nodes[last].is_leaf()) last = tree_.nodes[last].right;
+    for (std::uint32_t i = from; i <= last; ++i) {
+      TreeNode node = tree_.nodes[i];
+      if (node.is_leaf()) {
+        const std::uint32_t* const first = tree_.references.data() + node.first;
+        node.first = static_cast<std::uint32_t>(out.references.size());
+        out.references.insert(out.references.end(), first, first + node.count);
+      } else {
+        node.right = node.right - from + to;
+      }
+      out.nodes.push_back(node);
+    }
+  }
+
+  const Tree& tree_;
+  LinkedTree linked_;
+};
+
+}  // namespace
+
+Tree reinsert_top(Tree tree, const TopRules& rules, const BuildContext& context) {
+  // A copy, the upper nodes at worst, and what a round needs for them.
+  context.require_memory(tree.nodes.size() * (sizeof(TreeNode) + sizeof(LinkedNode)) +
+                             reinsertion_bytes(tree.nodes.size() / 2 + 1),
+                         "reinsertion");
+  TopOfTree top(tree, rules.whole);
+  if (!(top.overlap() >= rules.least_overlap)) return tree;
+  reinsert_nodes(top.linked(), rules.reinsertion, context);
+  Tree moved = top.assemble();
+  return moved.depth() <= rules.max_depth ? moved : tree;
+}
+
+}  // namespace strahl
