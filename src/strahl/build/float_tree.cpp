@@ -133,13 +133,17 @@ class FloatPolicy {
     return {set, set.begin, static_cast<std::uint32_t>(set.size()), false, end - set.end, in_vain};
   }
 
+  /// Free places for the left side. None where no side is searched for a cut any more.
+  std::uint32_t gap_of(const FloatWork& work, const FloatSplit& split) const {
+    if (work.spare == 0 || work.count < cuts_->rules.least) return 0;
+    if (!split.is_found()) return work.spare / 2;
+    return left_share(work.spare, split.left_count, split.left, work.count - split.left_count,
+                      split.right);
+  }
+
   std::pair<FloatWork, FloatWork> divide_things(const FloatWork& work,
                                                 const FloatSplit& split) const {
-    const std::uint32_t gap = !split.is_found() ? work.spare / 2
-                              : work.spare == 0
-                                  ? 0
-                                  : left_share(work.spare, split.left_count, split.left,
-                                               work.count - split.left_count, split.right);
+    const std::uint32_t gap = gap_of(work, split);
     const auto [left, right] =
         split.is_found() ? splitter_.divide(work.set, split, gap) : splitter_.halve(work.set, gap);
     return {opened(left, right.begin, work.in_vain),

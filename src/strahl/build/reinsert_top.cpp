@@ -7,40 +7,56 @@ namespace strahl {
 namespace {
 
 constexpr std::uint32_t kNone = LinkedNode::kNone;
+constexpr std::uint32_t kSeen = 8;  // times what is moved as a whole: enough to tell the overlap
+
+/// A subtree: nodes [node, end), and its parent's place elsewhere.
+struct Waiting {
+  std::uint32_t node, end, parent;
+  std::uint32_t size() const { return end - node; }
+};
+
+/// Calls visit(subtree) for subtrees from the root down, which returns what its children get as
+/// their parent; none where they are not to be visited.
+template <class Visit>
+void descend(const Tree& tree, Visit visit) {
+  std::vector<Waiting> waiting{{0, static_cast<std::uint32_t>(tree.nodes.size()), kNone}};
+  while (!waiting.empty()) {
+    const Waiting at = waiting.back();
+    waiting.pop_back();
+    const std::uint32_t place = visit(at);
+    if (place == kNone) continue;
+    const std::uint32_t right = tree.nodes[at.node].right;
+    waiting.push_back({right, at.end, place});
+    waiting.push_back({at.node + 1, right, place});
+  }
+}
+
+/// Overlap of the children of nodes over the nodes' areas, for those with more nodes below them.
+double overlap_above(const Tree& tree, std::uint32_t nodes) {
+  double common = 0.0, all = 0.0;
+  descend(tree, [&](const Waiting& at) {
+    const TreeNode& node = tree.nodes[at.node];
+    if (node.is_leaf() || at.size() <= nodes) return kNone;
+    const Aabb &left = tree.nodes[at.node + 1].box, &right = tree.nodes[node.right].box;
+    common += Aabb::intersection(left, right).half_area();
+    all += node.box.half_area();
+    return 0u;
+  });
+  return all > 0.0 ? common / all : 0.0;
+}
 
 /// The upper nodes of a tree; the references of its leaves are nodes of the tree, the roots of the
 /// subtrees that stay as they are.
 class TopOfTree {
  public:
   TopOfTree(const Tree& tree, std::uint32_t whole) : tree_(tree) {
-    const std::vector<std::uint32_t> sizes = count_references();
-    struct Waiting {
-      std::uint32_t node, parent;
-    };
-    std::vector<Waiting> waiting{{0, kNone}};
-    while (!waiting.empty()) {
-      const Waiting at = waiting.back();
-      waiting.pop_back();
+    descend(tree, [&](const Waiting& at) {
       const std::uint32_t place = add(at.node, at.parent);
-      if (tree.nodes[at.node].is_leaf() || sizes[at.node] <= whole) continue;
-      waiting.push_back({tree.nodes[at.node].right, place});
-      waiting.push_back({at.node + 1, place});
-    }
+      return tree.nodes[at.node].is_leaf() || at.size() <= whole ? kNone : place;
+    });
   }
 
   LinkedTree& linked() { return linked_; }
-
-  /// Overlap of the children of all nodes over the nodes' areas.
-  double overlap() const {
-    double common = 0.0, all = 0.0;
-    for (const LinkedNode& node : linked_.nodes) {
-      if (node.is_leaf()) continue;
-      common += Aabb::intersection(linked_.nodes[node.left].box, linked_.nodes[node.right].box)
-                    .half_area();
-      all += node.box.half_area();
-    }
-    return all > 0.0 ? common / all : 0.0;
-  }
 
   /// The whole tree with its upper nodes as they are now.
   Tree assemble() const {
@@ -61,15 +77,6 @@ class TopOfTree {
   }
 
  private:
-  std::vector<std::uint32_t> count_references() const {
-    std::vector<std::uint32_t> sizes(tree_.nodes.size());
-    for (std::size_t i = sizes.size(); i-- > 0;) {
-      const TreeNode& node = tree_.nodes[i];
-      sizes[i] = node.is_leaf() ? node.count : sizes[i + 1] + sizes[node.right];
-    }
-    return sizes;
-  }
-
   std::uint32_t add(std::uint32_t node, std::uint32_t parent) {
     const auto place = static_cast<std::uint32_t>(linked_.nodes.size());
     linked_.nodes.push_back({tree_.nodes[node].box, parent, kNone, node});
@@ -107,8 +114,8 @@ Tree reinsert_top(Tree tree, const TopRules& rules, const BuildContext& context)
   context.require_memory(tree.nodes.size() * (sizeof(TreeNode) + sizeof(LinkedNode)) +
                              reinsertion_bytes(tree.nodes.size() / 2 + 1),
                          "reinsertion");
+  if (!(overlap_above(tree, kSeen * rules.whole) >= rules.least_overlap)) return tree;
   TopOfTree top(tree, rules.whole);
-  if (!(top.overlap() >= rules.least_overlap)) return tree;
   reinsert_nodes(top.linked(), rules.reinsertion, context);
   Tree moved = top.assemble();
   return moved.depth() <= rules.max_depth ? moved : tree;
