@@ -77,7 +77,11 @@ std::optional<TriangleHit> intersect_uncertain(const ExactRay& ray, const Triang
 /// Without a branch per sign: signs are as good as random, and a mispredicted branch costs more
 /// than the third edge of a triangle that the first two already rule out. The vertices must be
 /// finite.
-inline std::optional<TriangleHit> intersect(const ExactRay& ray, const TriangleVertices& tri) {
+/// @param uncertain says what it is where a sign of the three edge values (of ab, ca, bc) is not
+/// certain
+template <class Uncertain>
+std::optional<TriangleHit> intersect(const ExactRay& ray, const TriangleVertices& tri,
+                                     Uncertain uncertain) {
   const Vec3d A = tri.a - ray.org, B = tri.b - ray.org, C = tri.c - ray.org;
   const Vec3d dir_a = cross(ray.dir, A);
   const Vec3d e{dot(dir_a, B), -dot(dir_a, C), dot(cross(ray.dir, B), C)};
@@ -88,11 +92,15 @@ inline std::optional<TriangleHit> intersect(const ExactRay& ray, const TriangleV
     const bool has_front = least < -ray.edge_error;
     const bool has_back = most > ray.edge_error;
     if (has_front & has_back) return std::nullopt;
-    return intersect_uncertain(ray, tri, e);
+    return uncertain(e);
   }
   const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, A);
   if (!t) return std::nullopt;
   return TriangleHit{*t + 0.0, is_front};  // -0 + 0 is +0
+}
+
+inline std::optional<TriangleHit> intersect(const ExactRay& ray, const TriangleVertices& tri) {
+  return intersect(ray, tri, [&](const Vec3d& e) { return intersect_uncertain(ray, tri, e); });
 }
 
 }  // namespace strahl

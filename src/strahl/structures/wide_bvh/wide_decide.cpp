@@ -1,5 +1,5 @@
-// Compiled once per instruction set by Highway's foreach_target. Apart from wide_kernel.cpp, so that how
-// its loops are compiled does not depend on this.
+// Compiled once per instruction set by Highway's foreach_target. Apart from wide_kernel.cpp, so
+// that how its loops are compiled does not depend on this.
 #include <strahl/structures/wide_bvh/wide_kernel.h>
 #include <strahl/structures/wide_bvh/wide_targets.h>
 

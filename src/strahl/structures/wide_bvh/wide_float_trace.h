@@ -147,16 +147,13 @@ class WideFloatTrace {
   }
 
   bool decide(std::uint32_t i, WideId leaf, std::uint32_t lanes) {
-    const WideDecision decision = decide_lanes(i, leaf, lanes);
-    if ((decision.crossed | decision.left) == 0) return false;
     if constexpr (!kIsAny)
       if (known_.candidate[i] != 0) settle(i), decided_ |= std::uint64_t{1} << i;
     const Ray ray = given_ray(i);
     Q query(ray, HitFilter{});
     if constexpr (!kIsAny)
       if (is_decided(i)) query.best = answers_[i];
-    if (!offer_crossed(ray, leaf, decision, query) && decision.left != 0)
-      offer(i, ray, leaf, decision.left, query);
+    offer(i, ray, leaf, lanes, query);
     if constexpr (kIsAny) {
       decided_ |= std::uint64_t{query.found} << i;
       return query.found;
@@ -167,43 +164,69 @@ class WideFloatTrace {
     }
   }
 
-  WideDecision decide_lanes(std::uint32_t i, WideId leaf, std::uint32_t lanes) const {
-    if (!tree_.is_exact(tree_.at(leaf))) return {0, 0, lanes};
-    return kernel_.decide[tree_.width == 16](tree_, rays_, i, leaf, lanes);
-  }
-
-  /// Whether the query is over.
-  bool offer_crossed(const Ray& ray, WideId leaf, const WideDecision& decision, Q& query) {
-    const std::byte* at = tree_.at(leaf);
-    const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
-    for (std::uint32_t rest = decision.crossed; rest != 0; rest &= rest - 1) {
-      const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-      const TriangleVertices tri = stored_corners(at, count, lane);
-      const std::optional<double> t = crossing_t(ray.org, ray.dir, tri, tri.a - ray.org);
-      if (!t) continue;
-      Hit hit = prims_.blank_hit(references[lane]);
-      hit.t = *t + 0.0, hit.is_front = (decision.fronts >> lane & 1u) != 0;  // -0 + 0 is +0
-      if (query.offer(hit)) return true;
-    }
-    return false;
-  }
-
   /// The exact test of lanes; of triangles with the corners of the block where they are the
-  /// scene's, as they are at hand.
+  /// scene's, as they are at hand. One by one as long as their edge values are certain: mostly they
+  /// all are.
   void offer(std::uint32_t i, const Ray& ray, WideId leaf, std::uint32_t lanes, Q& query) {
     const ExactRay exact(ray.org, ray.dir, prims_.scene().world_frame().bounds);
-    const std::byte* at = tree_.at(leaf);
-    const std::uint32_t count = lanes_of(leaf), *references = reference_row(at, count);
-    TriangleVertices corners{kNoCorner, kNoCorner, kNoCorner};
+    const std::uint32_t* references = reference_row(tree_.at(leaf), lanes_of(leaf));
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-      if (tree_.is_exact(at)) corners = stored_corners(at, count, lane);
-      const bool is_over =
-          std::isnan(corners.a.x)
-              ? visit(i, references[lane], query)
-              : offer_triangle(corners, exact, prims_.blank_hit(references[lane]), query);
-      if (is_over) return;
+      const TriangleVertices triangle = corners(leaf, lane);
+      if (std::isnan(triangle.a.x)) {
+        if (visit(i, references[lane], query)) return;
+        continue;
+      }
+      bool is_open = false;
+      const auto crossing =
+          intersect(exact, triangle, [&](const Vec3d&) -> std::optional<TriangleHit> {
+            is_open = true;
+            return std::nullopt;
+          });
+      if (is_open) return offer_open(i, exact, leaf, lanes, query);
+      if (crossing && offer_hit(references[lane], *crossing, query)) return;
     }
+  }
+
+  /// The same all at once, of a block that holds the scene's corners: where one edge value is
+  /// uncertain, those of the triangles around a vertex are.
+  void offer_open(std::uint32_t i, const ExactRay& ray, WideId leaf, std::uint32_t lanes,
+                  Q& query) {
+    const WideDecision decision = kernel_.decide[tree_.width == 16](tree_, rays_, i, leaf, lanes);
+    for (std::uint32_t rest = decision.crossed | decision.left; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
+      const bool is_left = (decision.left >> lane & 1u) != 0;
+      const bool is_front = (decision.fronts >> lane & 1u) != 0;
+      if (is_left ? offer_left(i, ray, leaf, lane, query)
+                  : offer_crossed(ray, leaf, lane, is_front, query))
+        return;
+    }
+  }
+  bool offer_left(std::uint32_t i, const ExactRay& ray, WideId leaf, std::uint32_t lane, Q& query) {
+    const std::uint32_t reference = reference_row(tree_.at(leaf), lanes_of(leaf))[lane];
+    const TriangleVertices triangle = corners(leaf, lane);
+    if (std::isnan(triangle.a.x)) return visit(i, reference, query);
+    return offer_triangle(triangle, ray, prims_.blank_hit(reference), query);
+  }
+  bool offer_crossed(const ExactRay& ray, WideId leaf, std::uint32_t lane, bool is_front,
+                     Q& query) {
+    const TriangleVertices triangle = corners(leaf, lane);
+    const auto t = crossing_t(ray.org, ray.dir, triangle, triangle.a - ray.org);
+    const std::uint32_t reference = reference_row(tree_.at(leaf), lanes_of(leaf))[lane];
+    return t && offer_hit(reference, {*t + 0.0, is_front}, query);  // -0 + 0 is +0
+  }
+
+  bool offer_hit(std::uint32_t reference, const TriangleHit& crossing, Q& query) {
+    Hit hit = prims_.blank_hit(reference);
+    hit.t = crossing.t, hit.is_front = crossing.is_front;
+    return query.offer(hit);
+  }
+
+  /// NaN where the block has others than the scene.
+  TriangleVertices corners(WideId leaf, std::uint32_t lane) const {
+    const std::byte* at = tree_.at(leaf);
+    if (tree_.is_exact(at)) return stored_corners(at, lanes_of(leaf), lane);
+    return {kNoCorner, kNoCorner, kNoCorner};
   }
 
   bool visit(std::uint32_t i, std::uint32_t reference, Q& query) {
