@@ -51,7 +51,7 @@ struct BlockTree {
     tree.root = kWideLeaf | static_cast<WideId>(triangles.size() - 1);
     const std::size_t bytes = block_sizes(references, tree, source).bytes(9);
     EXPECT_LE(bytes + kWideSlack, kBytes);
-    EXPECT_TRUE(write_block(tree.arena.data(), references, tree, source, bytes));
+    EXPECT_TRUE(write_block(tree.arena.data(), references, tree, source, bytes).fits);
   }
 };
 

@@ -161,7 +161,20 @@ class WideStack {
                                  std::uint32_t order, std::size_t& count) {
     const std::uint32_t slot = store_farthest_first<kEnters>(children, hits, order, count);
     count += static_cast<std::size_t>(__builtin_popcount(hits.bits)) - 1;
+    if constexpr (kEnters && W == 16) {  // nodes of 8 gain nothing
+      const bool is_wrong = enter_[count - 1] < enter_[count];
+      if (__builtin_expect(is_wrong, false)) return exchange_top(count);
+    }
     return children[slot];
+  }
+
+  /// The order by signs is that of where children lie, not of where this ray enters them. Where it
+  /// has put the first two the wrong way round, the second is returned and the first waits instead.
+  /// A branch, not a choice: it is rarely taken, and the next node does not wait for the entries.
+  HWY_INLINE WideId exchange_top(std::size_t count) {
+    const WideId second = ids_[count - 1];
+    enter_[count - 1] = enter_[count], ids_[count - 1] = ids_[count];
+    return second;
   }
 
   HWY_INLINE WideId push_one_by_one(const WideId* children, const typename NodeTest<W>::Hits& hits,
