@@ -2,14 +2,12 @@
 // it is cut, or kept whole on one side where that is cheaper.
 //
 // Source: [Stich2009], reference unsplitting too.
-// Layout: as build/float_split.h: a set is copied into the other of two arrays, right behind each
-//   other or with a gap; cut references are copied twice.
+// Layout: as build/float_split.h: a set is copied into the other of two arrays, its sides right
+//   behind each other or with a gap; cut references are copied twice.
 // Method: bins are slabs of the set's box, three axes in one pass; a box is cut by the slabs for
-// the
-//   search, the thing itself only by the plane found.
-// Invariants: the boxes of a thing's references cover it; both sides get at least one reference
-// that
-//   is not cut, so no side is empty and each is smaller than the whole.
+//   the search, the thing itself only by the plane found.
+// Invariants: the boxes of a thing's references cover it. Both sides get at least one reference
+//   that is not cut, so no side is empty and each is smaller than the whole.
 // Differs from the paper: whether a reference stays whole is decided by the boxes of the search, in
 //   the order of the set.
 // Thread safety: const methods on disjoint sets.

@@ -1,9 +1,9 @@
 // build/reinsert_top.h - the upper nodes of a binary tree moved to where they cost less.
 //
 // Source: [MeisterBittner2018b], build/optimise.h; as in [Bittner2013], effort goes where it
-// counts. Method: subtrees of few nodes are moved as a whole, so a round takes a fraction of
-// the time
-//   of one over all leaves, and leaves may have several references.
+//   counts.
+// Method: subtrees of few nodes are moved as a whole, so a round takes a fraction of the time of
+//   one over all leaves, and leaves may have several references.
 // Invariants: leaves and what is below the nodes moved stay; the same tree for any number of
 //   threads.
 // Thread safety: pure functions.
