@@ -395,7 +395,6 @@ void Scene::ask_for_triangles(std::span<const std::uint32_t> references) const {
 
 void Scene::triangles(std::span<const std::uint32_t> references,
                       TriangleVertices* triangles) const {
-  ask_for_triangles(references);
   const Vec3d nan = Vec3d::all(std::numeric_limits<double>::quiet_NaN());
   for (const std::uint32_t reference : references) {
     const Part& part = part_of(reference);

@@ -154,6 +154,8 @@ class Scene final : public PrimitiveSource {
   void bounds_from(std::uint32_t first, std::span<Aabb> boxes) const override;
   void triangles(std::span<const std::uint32_t> references,
                  TriangleVertices* triangles) const override;
+  /// Has the memory that triangles() reads on its way, so that it waits once for many.
+  void ask_for_triangles(std::span<const std::uint32_t> references) const;
   bool stores_floats() const override;
   /// The same in the object space of the reference's instance.
   Aabb object_bounds(std::uint32_t reference) const;
@@ -183,8 +185,6 @@ class Scene final : public PrimitiveSource {
   void check_extent() const;
   void widen_for_instances();
   void hash_instances();
-  /// Has the memory of many triangles on its way before the first is read.
-  void ask_for_triangles(std::span<const std::uint32_t> references) const;
 
   std::shared_ptr<const Content> content_;
   std::span<const Geometry> geometries_;

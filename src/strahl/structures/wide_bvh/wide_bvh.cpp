@@ -75,7 +75,7 @@ BinaryTree divide_floats(const PrimitiveSource& source, const WideBvhOptions& op
   FloatTreeRules rules;
   rules.bins = is_fast ? 8 : 32, rules.max_depth = kWideMaxDepth;
   // So few make a block anyway.
-  rules.undivided = std::min<std::size_t>(is_fast ? 8 : 3, wide.max_leaf);
+  rules.undivided = std::min<std::size_t>(is_fast ? 12 : 3, wide.max_leaf);
   if (is_fast) rules.cluster = 16, rules.opened = 512;
   context.require_memory((refs.count + refs.spare) *
                              (sizeof(FloatRef) + float_tree_bytes(rules) + tree_bytes(wide.width)),

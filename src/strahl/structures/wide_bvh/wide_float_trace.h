@@ -128,7 +128,9 @@ class WideFloatTrace {
     std::size_t count = 0;
     for (std::uint64_t rest = settled.left; rest != 0; rest &= rest - 1)
       references[count++] = known_.reference[std::countr_zero(rest)];
-    prims_.scene().triangles(std::span(references).first(count), triangles.data());
+    const std::span left = std::span(references).first(count);
+    prims_.scene().ask_for_triangles(left);
+    prims_.scene().triangles(left, triangles.data());
     WideCorners corners;
     alignas(64) double found[kWideBlock];  // what is not left is written, too
     const TriangleVertices* triangle = triangles.data();

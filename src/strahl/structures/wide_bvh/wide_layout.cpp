@@ -237,11 +237,10 @@ class Layout {
 
   Blocking blocking_of(std::uint32_t node, std::span<const Blocking> children) const {
     Blocking all{0.0, half_area_of(node), rules_.node_cost};
-    for (const Blocking& child : children)
-      if (child.half_area >= 0.0) {
-        all.triangle_area += child.triangle_area;
-        all.cost += child.cost * sah_share(child.half_area, all.half_area);
-      }
+    for (const Blocking& child : children) {
+      all.triangle_area += child.triangle_area;
+      all.cost += child.cost * sah_share(child.half_area, all.half_area);
+    }
     return all;
   }
 

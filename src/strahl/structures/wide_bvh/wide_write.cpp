@@ -91,9 +91,10 @@ class BlockTriangles {
   std::size_t count_;
 };
 
+/// Seen along the axes, summed.
 double triangle_area(std::span<const TriangleVertices> triangles) {
   double twice = 0.0;
-  for (const TriangleVertices& t : triangles) twice += length(cross(t.b - t.a, t.c - t.a));
+  for (const TriangleVertices& t : triangles) twice += norm1(cross(t.b - t.a, t.c - t.a));
   return twice / 2;
 }
 

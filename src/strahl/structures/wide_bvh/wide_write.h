@@ -25,7 +25,7 @@ void write_any_order(std::byte* node, std::span<const Blocking, kOrderedWidth> c
 /// What writing a block found.
 struct WrittenBlock {
   bool fits;             ///< into that many bytes, as a full one does; if not, nothing is written
-  double triangle_area;  ///< in the tree's frame; NaN where things are no triangles
+  double triangle_area;  ///< Blocking's, in the tree's frame; NaN where things are no triangles
 };
 
 /// Bytes of a block of these lanes in the tree's frame and layout; a full one has one size.
