@@ -16,13 +16,19 @@ class BoxTreeMaker {
     ids_.push_back(tree_.root);
     for (std::size_t at = 0; at < ids_.size(); ++at)
       is_leaf(ids_[at]) ? place_block(at) : place_children(at);
-    if (!is_leaf(tree_.root))
-      for (const HierarchyNode& child : out_.children(out_.nodes[0]))
-        out_.nodes[0].box.extend(child.box);
+    enclose_children();
     return std::move(out_);
   }
 
  private:
+  /// The root has no box in the tree, and the order of any hit moves low x planes of nodes of 16 by
+  /// some units in the last place (wide_any_order.h), a child's further than its parent's maybe.
+  void enclose_children() {
+    for (std::size_t at = out_.nodes.size(); at-- > 0;)
+      for (const HierarchyNode& child : out_.children(out_.nodes[at]))
+        out_.nodes[at].box.extend(child.box);
+  }
+
   void place_block(std::size_t at) {
     const std::uint32_t lanes = lanes_of(ids_[at]);
     const std::uint32_t* references = reference_row(tree_.at(ids_[at]), lanes);
