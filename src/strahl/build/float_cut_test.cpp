@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tests/support/same_tree.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -319,12 +320,7 @@ TEST(FloatCutTree, IsTheSameForAnyNumberOfThreads) {
   const Triangles things = strewn(40'000, 8);
   const Tree serial = cut_tree(things, 4000), parallel = cut_tree(things, 4000, {}, two);
   EXPECT_GT(serial.references.size(), 41'000u);
-  EXPECT_EQ(serial.references, parallel.references);
-  ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
-  for (std::size_t i = 0; i < serial.nodes.size(); ++i) {
-    const TreeNode &s = serial.nodes[i], &p = parallel.nodes[i];
-    ASSERT_TRUE(s.box == p.box && s.right == p.right && s.first == p.first && s.count == p.count);
-  }
+  test::expect_same_tree(serial, parallel);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tests/support/same_tree.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -298,12 +299,7 @@ TEST(FloatTree, IsTheSameForAnyNumberOfThreads) {
     std::vector<FloatRef> a = strewn(100'000, 0.01, 5), b = a;
     const Tree serial = build_float_tree(a, rules_with(cluster), {});
     const Tree parallel = build_float_tree(b, rules_with(cluster), two);
-    EXPECT_EQ(serial.references, parallel.references);
-    ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
-    for (std::size_t i = 0; i < serial.nodes.size(); ++i) {
-      const TreeNode &s = serial.nodes[i], &p = parallel.nodes[i];
-      ASSERT_TRUE(s.box == p.box && s.right == p.right && s.first == p.first && s.count == p.count);
-    }
+    test::expect_same_tree(serial, parallel);
   }
 }
 

@@ -149,7 +149,7 @@ class PackLanes {
  public:
   HWY_INLINE explicit PackLanes(std::uint32_t lanes) {
     const hn::Rebind<std::uint8_t, Floats> bytes;
-    const auto* slots = reinterpret_cast<const std::uint8_t*>(&wide_slots(lanes, kAscending));
+    const auto* slots = reinterpret_cast<const std::uint8_t*>(&wide_slots(lanes, kAscendingSlots));
     index_ = hn::PromoteTo(DU(), hn::LoadU(bytes, slots));
   }
   HWY_INLINE hn::Vec<Floats> run(hn::Vec<Floats> v) const {
@@ -158,7 +158,6 @@ class PackLanes {
 
  private:
   using DU = hn::RebindToUnsigned<Floats>;
-  static constexpr std::uint32_t kAscending = 7;  ///< the order that lists slots from the lowest
 
   hn::Vec<DU> index_;
 };

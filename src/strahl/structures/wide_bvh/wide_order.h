@@ -58,6 +58,9 @@ inline std::uint32_t visiting_order(std::uint32_t bits, std::uint32_t order) {
   return (halves | halves << 16) >> (order & 8u) & 0xffffu;  // rotated, without a branch
 }
 
+/// The order of wide_slots() that lists slots from the lowest.
+inline constexpr std::uint32_t kAscendingSlots = 7;
+
 /// The slots of `bits`, one per byte from the lowest, farthest first; the highest byte is the
 /// nearest one.
 inline const std::uint64_t& wide_slots(std::uint32_t bits, std::uint32_t order) {

@@ -92,7 +92,7 @@ class WideStack {
       const std::uint32_t keep = bits_of(D(), hn::Le(enter, limit)) & ((1u << here) - 1);
       // Lanes beyond those kept are written into what has been read already.
       if constexpr (W == 8 && L::kParts == 1) {
-        const auto index = lanes_from(wide_slots(keep, kAscending));
+        const auto index = lanes_from(wide_slots(keep, kAscendingSlots));
         hn::StoreU(permuted(enter, index), D(), enter_ + left);
         hn::StoreU(permuted(ids, index), DU(), ids_ + left);
       } else {
@@ -106,8 +106,6 @@ class WideStack {
   }
 
  private:
-  static constexpr std::uint32_t kAscending = 7;  ///< the order that lists slots from the lowest
-
   HWY_INLINE static hn::Vec<DU> lanes_from(const std::uint64_t& bytes) {
     const hn::Rebind<std::uint8_t, DU> d8;
     return hn::PromoteTo(DU(), hn::LoadU(d8, reinterpret_cast<const std::uint8_t*>(&bytes)));
